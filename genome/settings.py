@@ -1,0 +1,132 @@
+"""The strict base of every settings model, and the translation of its complaints into one clear error.
+
+Settings are pydantic models at the edge of the program. They forbid unknown keys, take no truth value for a
+number and no number for a text, and refuse NaN and infinity. :func:`validated` turns what pydantic says into
+an :class:`~genome.errors.InputError` that names the key and, for a misspelt one, the nearest that exists.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any, TypeVar, get_args
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+
+from genome.errors import InputError
+
+Path = tuple[str | int, ...]
+
+
+class Settings(BaseModel):
+    """A frozen, strict model: unknown keys, loose types, NaN and infinity are refused."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, allow_inf_nan=False)
+
+
+def _as_tuple(value: object) -> object:
+    return tuple(value) if isinstance(value, list) else value
+
+
+Vector3 = Annotated[tuple[float, float, float], BeforeValidator(_as_tuple)]
+"""Three finite numbers, written as a list: x, y, z."""
+
+M = TypeVar("M", bound=BaseModel)
+
+
+def validated(
+    model: type[M], data: object, source: str, prefix: Path = (), line_of: Callable[[Path], int | None] | None = None
+) -> M:
+    """Build ``model`` from plain data.
+
+    Parameters
+    ----------
+    model
+        The settings model.
+    data
+        What a YAML or JSON loader returned.
+    source
+        The file's name, for the message.
+    prefix
+        The key path at which ``data`` stands in that file.
+    line_of
+        Gives the line of a key path, where the loader knows it.
+
+    Raises
+    ------
+    InputError
+        For the first thing that is wrong.
+    """
+    if not isinstance(data, Mapping):
+        raise InputError(_where(source, prefix, line_of), "keys and values", describe(data))
+    try:
+        return model.model_validate(dict(data))
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        raise _translated(model, dict(first), source, prefix, line_of) from None
+
+
+def describe(value: object) -> str:
+    """Give a short text of a value for an error message."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def near(word: str, known: list[str]) -> str:
+    """Suggest the known word nearest to ``word``, or list them all."""
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+    return f"did you mean '{close[0]}'?" if close else f"known: {', '.join(sorted(known))}"
+
+
+def _where(source: str, path: Path, line_of: Callable[[Path], int | None] | None) -> str:
+    line = line_of(path) if line_of else None
+    place = f"{source}:{line}" if line else source
+    key = ".".join(str(part) for part in path)
+    return f"{place}: {key}" if key else place
+
+
+def _translated(
+    model: type[BaseModel], error: dict[str, Any], source: str, prefix: Path, line_of: Callable[[Path], int | None] | None
+) -> InputError:
+    path: Path = prefix + tuple(error["loc"])
+    where = _where(source, path, line_of)
+    kind = str(error["type"])
+    if kind == "extra_forbidden":
+        key = str(path[-1])
+        known = _fields_at(model, tuple(error["loc"])[:-1])
+        return InputError(where, "a known key", f"'{key}'", near(key, known) if known else "")
+    if kind == "missing":
+        return InputError(where, f"a value for '{path[-1]}'", "nothing", "add the key")
+    if isinstance(error.get("ctx"), dict) and isinstance(error["ctx"].get("error"), InputError):
+        inner: InputError = error["ctx"]["error"]
+        return InputError(where, inner.expected, inner.got, inner.remedy)
+    message = str(error["msg"]).removeprefix("Value error, ").removeprefix("Input should be ")
+    return InputError(where, message, describe(error.get("input")))
+
+
+def _fields_at(model: type[BaseModel], path: Path) -> list[str]:
+    """Give the field names of the model that stands at ``path`` below ``model``; empty where that is no model."""
+    current: object = model
+    for part in path:
+        if isinstance(current, type) and issubclass(current, BaseModel) and part in current.model_fields:
+            current = _model_in(current.model_fields[str(part)].annotation)
+        elif not (isinstance(current, type) and issubclass(current, BaseModel)):
+            return []
+    return _names(current)
+
+
+def _names(current: object) -> list[str]:
+    if isinstance(current, type) and issubclass(current, BaseModel):
+        return [field.alias or name for name, field in current.model_fields.items()]
+    return []
+
+
+def _model_in(annotation: object) -> object:
+    """Find the first model inside an annotation such as ``dict[str, Model] | None``."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    for argument in get_args(annotation):
+        found = _model_in(argument)
+        if found is not None:
+            return found
+    return None

@@ -1,0 +1,49 @@
+"""The phenotype of the surface engines: a mesh of polygons with labelled, directed edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]
+Indices = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """A grown surface.
+
+    Attributes
+    ----------
+    vertices
+        (V, 3) float64, positions in the environment's unit, z up.
+    edges
+        (E, 2) int32, start and end vertex of each edge.
+    labels
+        (E,) int32, the label of each edge, an index into ``label_names``.
+    label_names
+        The labels as the rules write them, such as ``Edge0`` or ``A``.
+    face_starts
+        (F + 1,) int32, where each face's ring begins in ``face_vertices``; the exterior is not among the faces.
+    face_vertices
+        (sum of ring lengths,) int32, the rings one after the other, counter-clockwise seen from the seed's normal.
+        A ring of two vertices (two edges that join the same pair) has no area.
+    """
+
+    vertices: Points
+    edges: Indices
+    labels: Indices
+    label_names: tuple[str, ...]
+    face_starts: Indices
+    face_vertices: Indices
+
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """The numbers of vertices, edges and faces."""
+        return len(self.vertices), len(self.edges), len(self.face_starts) - 1
+
+    def face(self, index: int) -> Indices:
+        """Give the vertex ring of one face."""
+        return self.face_vertices[self.face_starts[index] : self.face_starts[index + 1]]
