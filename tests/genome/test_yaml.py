@@ -158,7 +158,7 @@ def test_a_missing_file_a_folder_and_latin_1(tmp_path: Path) -> None:
 
 
 _words = st.text(alphabet=st.characters(min_codepoint=32, max_codepoint=126), max_size=20)
-_scalars = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | _words
+_scalars = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | _words
 _values = st.recursive(_scalars, lambda inner: st.lists(inner) | st.dictionaries(_words, inner), max_leaves=12)
 
 
