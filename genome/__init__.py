@@ -1,1 +1,1 @@
-"""To be written."""
+"""What is inherited: genotypes, their variation, and the grammars that turn them into text. No geometry."""

@@ -1,0 +1,231 @@
+"""Genr8's use of grammatical evolution: a genome becomes the text of a `.hemls` rule file.
+
+The general mapper writes the sentence; this module adds what is particular to Genr8 (Hemberg 2006, section 5.1): the
+grammar that is shipped, the profile ``paper``, and the repair that gives every label a rule.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from importlib import resources
+from itertools import chain
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from genome.bnf import parse_bnf
+from genome.errors import InputError
+from genome.grammar import Grammar, Item, Option, Repeat, Terminal, non_terminals, terminals
+from genome.mapping import Mapper, Unmapped, gene_array
+from genome.program import Labels
+from genome.settings import Settings, near
+
+Profile = Literal["default", "paper"]
+_LABEL = re.compile(r"Edge(\d+)")
+SUCCESSOR = "Successor"
+"""The non-terminal that repair expands."""
+
+
+class Genr8Genome(Settings):
+    """The settings under ``genome:`` of an island of surfaces."""
+
+    grammar: str = "genr8"
+    """A shipped grammar's name, or the path of a `.bnf` file."""
+    length: int = Field(default=200, ge=2, le=1_000_000)
+    profile: Profile = "default"
+    max_depth: int = Field(default=8, ge=1, le=10_000)
+    wraps: int = Field(default=3, ge=0, le=1000)
+    max_tokens: int = Field(default=2000, ge=1, le=10_000_000)
+    gene_ceiling: int = Field(default=1000, ge=2, le=2**53)
+    """Genes are integers from 0 up to, and without, this."""
+    crossover: Literal["one_point", "two_point"] = "one_point"
+    gene_mutation: float = Field(default=0.02, ge=0, le=1)
+    """The chance of each gene of a mutated genome to be drawn anew."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mapped:
+    """A rule file, and how it came about.
+
+    Attributes
+    ----------
+    text
+        The rule file, one rule a line.
+    genes_read
+        How many genes were read, repair and genes read again included.
+    repaired
+        The labels that got their rule by repair, ascending.
+    """
+
+    text: str
+    genes_read: int
+    repaired: tuple[int, ...]
+
+
+def load_grammar(name_or_path: str, base: Path) -> Grammar:
+    """Load a grammar.
+
+    Parameters
+    ----------
+    name_or_path
+        The name of a shipped grammar (``genr8``), or a path, told by its ``.bnf`` ending or a slash in it.
+    base
+        The folder that a relative path starts from.
+
+    Raises
+    ------
+    InputError
+        Where there is no such grammar or file, or its text is not a grammar.
+    """
+    if "/" not in name_or_path and not name_or_path.endswith(".bnf"):
+        shipped = resources.files("genome") / "grammars"
+        names = sorted(entry.name.removesuffix(".bnf") for entry in shipped.iterdir() if entry.name.endswith(".bnf"))
+        if name_or_path not in names:
+            remedy = f"{near(name_or_path, names)}; a file's name ends in .bnf"
+            raise InputError("grammar", "a grammar's name or file", f"'{name_or_path}'", remedy)
+        file = f"{name_or_path}.bnf"
+        return parse_bnf((shipped / file).read_text(encoding="utf-8"), file)
+    path = base / name_or_path
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        got = getattr(error, "strerror", None) or "bytes that are not UTF-8"
+        raise InputError(
+            str(path), "a readable grammar file", got, "check the path, from the experiment's folder"
+        ) from None
+    return parse_bnf(text, str(path))
+
+
+class Genr8Mapper:
+    """Maps genomes to rule files.
+
+    Parameters
+    ----------
+    grammar
+        A grammar whose sentences are rule files, ``;`` ending each line. One with label terminals must have a
+        ``<Successor>``; one without is never repaired.
+    profile
+        ``paper`` leaves out the ``[ ~ ]`` of the axiom, as the worked example of Hemberg 2006, section 5.2, does.
+    max_depth, wraps, max_tokens
+        Limits, see :class:`genome.mapping.Mapper`.
+
+    Raises
+    ------
+    InputError
+        For a grammar with label terminals in which no ``<Successor>`` can be reached from the start.
+    """
+
+    def __init__(
+        self,
+        grammar: Grammar,
+        profile: Profile = "default",
+        max_depth: int = 8,
+        wraps: int = 3,
+        max_tokens: int = 2000,
+    ) -> None:
+        depths = _depths_reached(grammar)
+        labels = Labels() if _has_labels(grammar, Labels()) else None
+        if labels and SUCCESSOR not in depths:
+            raise InputError(
+                grammar.source,
+                f"a production <{SUCCESSOR}> that the start leads to (repair expands it)",
+                "none",
+                "name it so, or add it",
+            )
+        self._successor_depth = depths.get(SUCCESSOR, 0)
+        self._max_tokens = max_tokens
+        self._mapper = Mapper(_of_profile(grammar, profile), labels, max_depth, wraps, max_tokens)
+
+    def map(self, genes: Sequence[int]) -> Mapped | Unmapped:
+        """Map a genome to a rule file's text.
+
+        Parameters
+        ----------
+        genes
+            Integers of 0 or more.
+
+        Returns
+        -------
+        Mapped or Unmapped
+            Unmapped where the genes ran out, in the sentence or in its repair, or the text grew too long.
+        """
+        array = gene_array(genes)
+        state = self._mapper.derive(array)
+        if isinstance(state, Unmapped):
+            return state
+        lines = [line.strip() for line in self._mapper.text(state.tokens).split(";")]
+        ruled = _ruled(lines)
+        written = len(state.tokens)
+        repairs: list[str] = []
+        repaired: list[int] = []
+        label = 0
+        while label < state.labels:  # a repair may bring new labels, which come after all the others
+            if label not in ruled:
+                found = self._mapper.derive(array, SUCCESSOR, self._successor_depth, state)
+                if isinstance(found, Unmapped):
+                    return Unmapped(f"{found.reason}, while repairing Edge{label}")
+                written += len(found.tokens)
+                if written > self._max_tokens:
+                    return Unmapped(f"the text grew past {self._max_tokens} tokens, while repairing Edge{label}")
+                repairs.append(f"Edge{label} -> {self._mapper.text(found.tokens)}")
+                repaired.append(label)
+                state = found
+            label += 1
+        place = max((i for i, line in enumerate(lines) if "->" in line), default=0) + 1
+        lines[place:place] = repairs
+        return Mapped("\n".join(line for line in lines if line) + "\n", state.genes_read, tuple(repaired))
+
+
+def _ruled(lines: list[str]) -> set[int]:
+    """Give the labels that some rule rewrites: its predecessor without the context, or each of a list."""
+    ruled: set[int] = set()
+    for line in lines:
+        predecessor, arrow, _ = line.partition("->")
+        if arrow:
+            main = predecessor.split("<")[-1].split(">")[0]
+            ruled.update(int(found[1]) for word in main.split() if (found := _LABEL.fullmatch(word)))
+    return ruled
+
+
+def _has_labels(grammar: Grammar, labels: Labels) -> bool:
+    names = {labels.name, *labels.bound}
+    sequences = chain.from_iterable(grammar.rules.values())
+    return any(word in names for sequence in sequences for word in terminals(sequence))
+
+
+def _depths_reached(grammar: Grammar) -> dict[str, int]:
+    """Give the least depth at which each non-terminal stands below the start symbol, which is at 0."""
+    depths = {grammar.start: 0}
+    queue = deque([grammar.start])
+    while queue:
+        name = queue.popleft()
+        for sequence in grammar.rules[name]:
+            for used in non_terminals(sequence):
+                if used not in depths:
+                    depths[used] = depths[name] + 1
+                    queue.append(used)
+    return depths
+
+
+def _of_profile(grammar: Grammar, profile: Profile) -> Grammar:
+    """Leave out the options ``[ ~ ]`` of the axiom in profile ``paper``."""
+    if profile == "default" or "Axiom" not in grammar.rules:
+        return grammar
+    axiom = tuple(_without_turns(sequence) for sequence in grammar.rules["Axiom"])
+    return replace(grammar, rules={**grammar.rules, "Axiom": axiom})
+
+
+def _without_turns(sequence: tuple[Item, ...]) -> tuple[Item, ...]:
+    kept: list[Item] = []
+    for item in sequence:
+        if isinstance(item, (Repeat, Option)):
+            if item == Option(((Terminal("~"),),)):
+                continue
+            kept.append(type(item)(tuple(_without_turns(inner) for inner in item.alternatives)))
+        else:
+            kept.append(item)
+    return tuple(kept)
