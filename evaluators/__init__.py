@@ -1,1 +1,1 @@
-"""To be written."""
+"""From phenotype to scores: one criterion a file, and how scores become one fitness."""

@@ -46,6 +46,16 @@ class Genr8Genome(Settings):
     gene_mutation: float = Field(default=0.02, ge=0, le=1)
     """The chance of each gene of a mutated genome to be drawn anew."""
 
+    def mapper(self, base: Path) -> Genr8Mapper:
+        """Load the grammar, its path relative to the folder ``base``, and make the mapper that these settings ask for.
+
+        Raises
+        ------
+        InputError
+            See :func:`load_grammar` and :class:`Genr8Mapper`.
+        """
+        return Genr8Mapper(load_grammar(self.grammar, base), self.profile, self.max_depth, self.wraps, self.max_tokens)
+
 
 @dataclass(frozen=True, slots=True)
 class Mapped:
