@@ -1,0 +1,231 @@
+"""The host: holds several islands, steps them on one thread, and writes their part of the log.
+
+It is a plain class. The in-process backend calls it as it is; ``islands.actor`` makes a Ray actor of it. What its
+islands send to each other stays inside; what they send to islands of other hosts comes out of ``advance`` as one
+box for each host, so that a driver can route boxes without looking into them.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Final, final
+
+from growth.protocol import Clock
+from islands.individual import Individual
+from islands.island import Advance, Island, State
+from islands.kinds.registry import resolve_kind
+from islands.log import LogWriter
+from islands.migration.channel import Edge, Packet
+from islands.selection import best_of, ranked
+from islands.spec import IslandSpec
+
+Box = tuple[Packet, ...]
+"""What one host sends to another at an epoch's end."""
+
+THREAD_VARIABLES: Final = (
+    "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMBA_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class HostPlan:
+    """What one host is to do.
+
+    Attributes
+    ----------
+    host, hosts
+        Its number, and how many there are.
+    run, seed
+        The run's name and seed.
+    folder
+        The run's folder.
+    islands
+        Its islands, in order.
+    edges
+        Every edge that begins or ends at one of them, in the order of channels, then sources.
+    placement
+        For each island of the run, by number, the host that holds it.
+    generations
+        Generations of an epoch.
+    flush_epochs
+        The log is written every so many epochs.
+    best_forms
+        How many forms of each island are written at the end.
+    """
+
+    host: int
+    hosts: int
+    run: str
+    seed: int
+    folder: str
+    islands: tuple[IslandSpec, ...]
+    edges: tuple[Edge, ...]
+    placement: tuple[int, ...]
+    generations: int
+    flush_epochs: int
+    best_forms: int
+
+
+@dataclass(frozen=True, slots=True)
+class IslandSummary:
+    """How an island stands at an epoch's end: what the driver may see of it."""
+
+    island: str
+    epoch: int
+    generation: int
+    evaluations: int
+    best: float | None
+    best_id: int | None
+    mean: float | None
+    invalid: int
+    migrants: int
+
+
+class StoppedError(Exception):
+    """The run was asked to stop: the epoch in hand is abandoned, the states are those of its beginning."""
+
+
+@final
+class Host:
+    """Several islands on one thread; see the module's docstring.
+
+    Parameters
+    ----------
+    plan
+        What to do.
+    clock, calendar
+        For the log's clock columns alone.
+    """
+
+    def __init__(
+        self,
+        plan: HostPlan,
+        clock: Clock = time.perf_counter,
+        calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
+    ) -> None:
+        pin_threads()
+        self._plan = plan
+        self._stop = threading.Event()
+        edges: dict[int, list[Edge]] = defaultdict(list)
+        for edge in plan.edges:
+            for end in dict.fromkeys((edge.source, edge.target)):
+                edges[end].append(edge)
+        self._islands: list[Island[Any]] = []
+        for spec in plan.islands:
+            biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, clock)
+            self._islands.append(Island(spec, biology, plan.seed, edges[spec.number], clock, self._pulse))
+        self._states: dict[int, State[Any]] = {}
+        self._kept: Box = ()
+        self._log = LogWriter(Path(plan.folder) / "log", plan.run, plan.islands, calendar)
+
+    def ready(self) -> int:
+        """Tell that the host stands; gives its number."""
+        return self._plan.host
+
+    def stop(self) -> None:
+        """Ask for the epoch in hand to be abandoned; may be called from another thread."""
+        self._stop.set()
+
+    def advance(self, epoch: int, *inboxes: Box) -> tuple[Any, ...]:
+        """Step every island through one epoch.
+
+        Parameters
+        ----------
+        epoch
+            0 makes the first populations; then each epoch follows the one before.
+        inboxes
+            What the hosts sent at the end of the epoch before, in any order.
+
+        Returns
+        -------
+        The islands' summaries, then one box for each host of the run; the one for itself is empty.
+
+        Raises
+        ------
+        StoppedError
+            When it was asked to stop; nothing has changed then.
+        """
+        arrivals: dict[int, list[Packet]] = defaultdict(list)
+        for packet in (packet for box in (self._kept, *inboxes) for packet in box):
+            arrivals[packet.target].append(packet)
+        steps = [self._step(island, epoch, arrivals[island.spec.number]) for island in self._islands]
+        boxes: list[list[Packet]] = [[] for _ in range(self._plan.hosts)]
+        for island, step in zip(self._islands, steps, strict=True):
+            self._states[island.spec.number] = step.state
+            self._log.add(island.spec.number, epoch, step.records)
+            for packet in step.departures:
+                boxes[self._plan.placement[packet.target]].append(packet)
+        self._kept = tuple(boxes[self._plan.host])
+        boxes[self._plan.host] = []
+        if epoch % self._plan.flush_epochs == 0 and epoch > 0:
+            self._log.flush()
+        summaries = tuple(_summary(i, s) for i, s in zip(self._islands, steps, strict=True))
+        return (summaries, *(tuple(box) for box in boxes))
+
+    def finish(self, write_forms: bool) -> tuple[str, ...]:
+        """Write what is left of the log and, if asked, the best forms; give the forms' paths."""
+        self._log.flush()
+        if not write_forms:
+            return ()
+        files: list[str] = []
+        folder = Path(self._plan.folder) / "forms"
+        folder.mkdir(parents=True, exist_ok=True)
+        for island in self._islands:
+            state = self._states.get(island.spec.number)
+            if state is not None:
+                files.extend(self._write_forms(island, state.deme, folder))
+        return tuple(files)
+
+    def _write_forms(self, island: Island[Any], deme: Sequence[Individual[Any]], folder: Path) -> list[str]:
+        valid = [member for member in ranked(deme) if member.fitness is not None]
+        files: list[str] = []
+        for rank, member in enumerate(valid[: self._plan.best_forms], start=1):
+            stem = folder / f"{island.spec.name}-{rank}"
+            files.extend(str(path) for path in island.biology.write_forms(member.genotype, stem, ()))
+        return files
+
+    def _step(self, island: Island[Any], epoch: int, arrivals: Sequence[Packet]) -> Advance[Any]:
+        if epoch == 0:
+            return island.begin()
+        state = self._states[island.spec.number]
+        if state.epoch != epoch - 1:
+            text = f"island {island.spec.name} stands at epoch {state.epoch}, asked for epoch {epoch}"
+            raise RuntimeError(text)
+        return island.advance(state, self._plan.generations, arrivals)
+
+    def _pulse(self) -> None:
+        if self._stop.is_set():
+            raise StoppedError
+
+
+def _summary(island: Island[Any], step: Advance[Any]) -> IslandSummary:
+    last = step.records.generations[-1]
+    best = best_of(step.state.deme)
+    return IslandSummary(
+        island=island.spec.name,
+        epoch=step.state.epoch,
+        generation=step.state.generation,
+        evaluations=sum(row.evaluations for row in step.records.generations),
+        best=last.best,
+        best_id=None if best is None else best.id,
+        mean=last.mean,
+        invalid=last.invalid,
+        migrants=sum(crossing.accepted for crossing in step.records.crossings),
+    )
+
+
+def pin_threads() -> None:
+    """Keep the numeric libraries of this process on one thread, so that sums are taken in one order everywhere."""
+    from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
+
+    for variable in THREAD_VARIABLES:
+        os.environ.setdefault(variable, "1")
+    threadpool_limits(limits=1)

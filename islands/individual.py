@@ -1,0 +1,81 @@
+"""Individuals: immutable, named by one number for the whole run, and the same wherever they live."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final, Generic, Literal, TypeVar
+
+Origin = Literal["seed", "random", "crossover", "mutation", "crossover+mutation", "intervention"]
+G = TypeVar("G")
+
+Scores = tuple[tuple[str, float], ...]
+"""Criteria and their values, sorted by name."""
+
+COUNTER_BITS: Final = 40
+"""An id holds the island's number above this many bits, and the count of that island's individuals below."""
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """What scoring an individual gave.
+
+    Attributes
+    ----------
+    fitness
+        Maximised; ``None`` when the individual is invalid. Never NaN.
+    scores
+        All criteria measured, those without a goal too.
+    error
+        Empty when valid, otherwise ``reason: what happened``.
+    growth_ms, evaluation_ms
+        Wall time of growing and of measuring, in milliseconds; outside the promise of determinism.
+    notes
+        What the log should tell about this scoring: pairs of an event's kind and its detail, plain JSON values.
+    """
+
+    fitness: float | None
+    scores: Scores = ()
+    error: str = ""
+    growth_ms: float = 0.0
+    evaluation_ms: float = 0.0
+    notes: tuple[tuple[str, dict[str, object]], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Individual(Generic[G]):
+    """A member of a deme.
+
+    Attributes
+    ----------
+    id
+        Unique in the run, kept by migrants.
+    genotype
+        An immutable value of the island kind.
+    fitness
+        Maximised, by the goals of the island where it lives; ``None`` when invalid.
+    scores, error
+        As in :class:`Evaluation`.
+    """
+
+    id: int
+    genotype: G
+    fitness: float | None
+    scores: Scores
+    error: str
+
+
+def make_id(island: int, count: int) -> int:
+    """Give the id of the ``count``-th individual (from 0) that the island with this number has bred."""
+    return island << COUNTER_BITS | count
+
+
+def home_of(individual: int) -> int:
+    """Give the number of the island that bred the individual with this id."""
+    return individual >> COUNTER_BITS
+
+
+def merit(individual: Individual[Any]) -> tuple[float, int]:
+    """Give a key that sorts the best first: valid before invalid, higher fitness first, then the lower id."""
+    if individual.fitness is None:
+        return (float("inf"), individual.id)
+    return (-individual.fitness, individual.id)

@@ -1,0 +1,132 @@
+"""What an island kind offers: its settings, and the biology that an island breeds by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
+
+import numpy as np
+
+from genome.settings import Settings
+from growth.protocol import Clock
+from islands.individual import Evaluation
+from islands.spec import IslandSpec
+
+G = TypeVar("G")
+
+Keep = Callable[[str, str, bytes], str]
+"""Keeps a file with the run: takes a folder's name, a file's name and its content, gives the path to write in its
+stead, relative to the run's folder."""
+
+
+@runtime_checkable
+class Biology(Protocol[G]):
+    """How one island makes, varies, scores and writes down its individuals.
+
+    A genotype is an immutable value. All randomness comes from the generator that is passed.
+
+    Attributes
+    ----------
+    scoring
+        Equal for two islands exactly when they score alike: growth, environment, criteria and goals.
+    seconds
+        An upper estimate of one evaluation's time, from which deadlines are made.
+    """
+
+    @property
+    def scoring(self) -> str:
+        """See above."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """See above."""
+        ...
+
+    def random(self, rng: np.random.Generator) -> G:
+        """Make a genotype of the first population."""
+        ...
+
+    def crossover(self, first: G, second: G, rng: np.random.Generator) -> tuple[G, G]:
+        """Make two genotypes from two; the parents stay as they are."""
+        ...
+
+    def mutate(self, genotype: G, rng: np.random.Generator) -> G:
+        """Make a changed genotype; the parent stays as it is."""
+        ...
+
+    def encode(self, genotype: G) -> str:
+        """Write a genotype in its language-neutral encoding."""
+        ...
+
+    def decode(self, text: str) -> G:
+        """Read what :meth:`encode` wrote."""
+        ...
+
+    def evaluate(self, genotype: G) -> Evaluation:
+        """Grow and score a genotype; failure is a value."""
+        ...
+
+    def diversity(self, genotypes: Sequence[G]) -> float | None:
+        """Say how different genotypes are, from 0 to 1; ``None`` for fewer than two."""
+        ...
+
+    def write_forms(self, genotype: G, stem: Path, formats: Sequence[str]) -> list[Path]:
+        """Grow a genotype and write its form.
+
+        Parameters
+        ----------
+        genotype
+            What to grow.
+        stem
+            The files' path without suffix; its folder exists.
+        formats
+            Suffixes without the dot; empty for the kind's usual ones.
+
+        Returns
+        -------
+        The files written; none when the genotype grows to no form.
+
+        Raises
+        ------
+        InputError
+            For a format that the kind does not write.
+        """
+        ...
+
+
+@runtime_checkable
+class Kind(Protocol):
+    """An island kind: the models of its settings, and the maker of its biology.
+
+    Attributes
+    ----------
+    name
+        The kind's name, a part of its species' default name.
+    genome, growth
+        Models of the island's ``genome:`` and ``growth:`` sections.
+    """
+
+    name: ClassVar[str]
+    genome: ClassVar[type[Settings]]
+    growth: ClassVar[type[Settings]]
+
+    def build(self, spec: IslandSpec, clock: Clock) -> Biology[Any]:
+        """Make the biology of one island.
+
+        Raises
+        ------
+        InputError
+            When the settings do not hold together: an unknown criterion, a file that is missing or malformed.
+        """
+        ...
+
+    def keep_files(self, spec: IslandSpec, keep: Keep) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+        """Keep with the run every file that the settings name.
+
+        Returns
+        -------
+        The genome and growth settings, with the kept files in place of the named ones.
+        """
+        ...

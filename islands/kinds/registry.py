@@ -1,0 +1,36 @@
+"""The island kinds by name. A new kind is one file here and one line of ``KINDS``."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from genome.errors import InputError
+from islands.kinds.protocol import Kind
+from islands.plugins import find
+
+KINDS: Final = {
+    "surface": "islands.kinds.surface:SurfaceKind",
+}
+"""Built kinds and where they stand; imported when first used."""
+
+LATER: Final = ("blocks", "block_pair", "enclosure", "space", "room", "zone", "house", "timed")
+"""Kinds that the experiment format knows and that are not built yet."""
+
+GROUP: Final = "atoll.kinds"
+
+
+def resolve_kind(name: str, where: str) -> Kind:
+    """Give the island kind of this name, import path or entry point.
+
+    Raises
+    ------
+    InputError
+        When there is none, or what is there is no island kind.
+    """
+    found = find(name, where, "island kind", KINDS, GROUP, LATER)
+    kind = found() if isinstance(found, type) else found
+    if not isinstance(kind, Kind):
+        missing = [part for part in ("name", "genome", "growth", "build", "keep_files") if not hasattr(kind, part)]
+        got = f"'{name}', a {type(kind).__name__} without {', '.join(missing)}"
+        raise InputError(where, "an island kind", got, "see CONTRIBUTING, 'adding an island kind'")
+    return kind

@@ -1,0 +1,250 @@
+"""The log writer: turns records into Parquet, file by file, so that every file in a table's folder is whole.
+
+A file is written under ``log/.tmp/`` and moved into its table's folder when complete. Its name comes from the epochs
+and islands that it covers, so that the same run makes the same names.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Sequence
+from datetime import datetime
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
+
+from islands.records import Records
+from islands.schemas import TABLES, schema, stored
+from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+Calendar = Callable[[], datetime]
+"""Gives the time of day in UTC; passed in."""
+
+
+class Event(NamedTuple):
+    """A row of the events table; ``island`` and ``epoch`` are ``None`` for what concerns the whole run."""
+
+    island: str | None
+    time: datetime
+    epoch: int | None
+    kind: str
+    detail: dict[str, Any]
+
+
+@final
+class LogWriter:
+    """Buffers the records of some islands and writes them.
+
+    Parameters
+    ----------
+    folder
+        The run's ``log`` folder; its tables' folders are made when first written to.
+    run
+        The run's name.
+    islands
+        The islands whose records will come; their numbers are in the files' names.
+    calendar
+        Stamps events.
+    """
+
+    def __init__(self, folder: Path, run: str, islands: Sequence[IslandSpec], calendar: Calendar) -> None:
+        self._folder = folder
+        self._run = run
+        self._islands = {spec.number: spec for spec in islands}
+        self._calendar = calendar
+        self._buffer: list[tuple[int, int, Records]] = []
+        self._events: list[Event] = []
+
+    def add(self, island: int, epoch: int, records: Records) -> None:
+        """Take the records of one island in one epoch."""
+        self._buffer.append((island, epoch, records))
+        if records.notes:
+            now = self._calendar()
+            name = self._islands[island].name
+            self._events.extend(Event(name, now, note.epoch, note.kind, note.detail) for note in records.notes)
+
+    def flush(self) -> list[Path]:
+        """Write what is buffered, one file for each table that has rows; give the files."""
+        if not self._buffer:
+            return []
+        epochs = [epoch for _, epoch, _ in self._buffer]
+        span = f"e{min(epochs):06d}-{max(epochs):06d}-i{min(self._islands):05d}-{max(self._islands):05d}"
+        tables = {name: self._table(name) for name in TABLES if name != "events"}
+        tables["events"] = events_table(self._run, self._events)
+        files = [write(self._folder, name, span, table) for name, table in tables.items() if table.num_rows]
+        self._buffer, self._events = [], []
+        return files
+
+    def _table(self, name: str) -> pa.Table:
+        make = {
+            "individuals": _individuals,
+            "evaluations": _evaluations,
+            "generations": _generations,
+            "migrations": _migrations,
+        }[name]
+        attribute = {
+            "individuals": "born", "evaluations": "rescored", "generations": "generations", "migrations": "crossings"
+        }[name]  # fmt: skip
+        parts = sorted(self._buffer, key=lambda part: (part[1], part[0]))
+        rows = list(chain.from_iterable(getattr(records, attribute) for _, _, records in parts))
+        specs = [self._islands[island] for island, _, records in parts for _ in getattr(records, attribute)]
+        return make(self._run, rows, specs)
+
+
+def write(folder: Path, table_name: str, stem: str, table: pa.Table) -> Path:
+    """Write one Parquet file under ``.tmp`` and move it into its table's folder; give its path."""
+    import pyarrow.parquet as pq
+
+    staging = folder / ".tmp"
+    target = folder / table_name / f"{stem}.parquet"
+    staging.mkdir(parents=True, exist_ok=True)
+    target.parent.mkdir(parents=True, exist_ok=True)
+    draft = staging / f"{table_name}-{stem}.parquet"
+    dictionary, split = stored(table_name)
+    pq.write_table(table, draft, compression="zstd", use_dictionary=dictionary, use_byte_stream_split=split)
+    draft.replace(target)
+    return target
+
+
+def events_table(run: str, events: Sequence[Event]) -> pa.Table:
+    """Make the events table of some events."""
+    import pyarrow as pa
+
+    return _build(
+        "events",
+        len(events),
+        run=run,
+        island=_names([event.island for event in events]),
+        time=pa.array([event.time.replace(tzinfo=None) for event in events], pa.timestamp("us")),
+        epoch=[event.epoch for event in events],
+        kind=_names([event.kind for event in events]),
+        detail=[json.dumps(event.detail, sort_keys=True, allow_nan=False) for event in events],
+    )
+
+
+def _individuals(run: str, rows: Sequence[Any], specs: Sequence[IslandSpec]) -> pa.Table:
+    (generation, epoch, identity, parents, components, partners, origin, genotype, fitness, scores, error, growth,
+     evaluation) = _transposed(rows, 13)  # fmt: skip
+    return _build(
+        "individuals",
+        len(rows),
+        run=run,
+        island=_names([spec.name for spec in specs]),
+        species=_names([spec.species for spec in specs]),
+        generation=generation,
+        epoch=epoch,
+        id=identity,
+        parents=_id_lists(parents),
+        components=_id_lists(components),
+        partners=_id_lists(partners),
+        origin=_names(origin),
+        genotype=genotype,
+        fitness=fitness,
+        scores=_score_maps(scores),
+        valid=[value is not None for value in fitness],
+        error=error,
+        growth_ms=growth,
+        evaluation_ms=evaluation,
+    )
+
+
+def _evaluations(run: str, rows: Sequence[Any], specs: Sequence[IslandSpec]) -> pa.Table:
+    generation, epoch, identity, reason, fitness, scores, partners, error, evaluation = _transposed(rows, 9)
+    return _build(
+        "evaluations",
+        len(rows),
+        run=run,
+        island=_names([spec.name for spec in specs]),
+        generation=generation,
+        epoch=epoch,
+        id=identity,
+        reason=_names(reason),
+        fitness=fitness,
+        scores=_score_maps(scores),
+        partners=_id_lists(partners),
+        valid=[value is not None for value in fitness],
+        error=error,
+        evaluation_ms=evaluation,
+    )
+
+
+def _generations(run: str, rows: Sequence[Any], specs: Sequence[IslandSpec]) -> pa.Table:
+    names = ("generation", "epoch", "evaluations", "best", "mean", "std", "worst", "diversity", "invalid", "wall_ms")
+    return _build(
+        "generations",
+        len(rows),
+        run=run,
+        island=_names([spec.name for spec in specs]),
+        species=_names([spec.species for spec in specs]),
+        **dict(zip(names, _transposed(rows, len(names)), strict=True)),
+    )
+
+
+def _migrations(run: str, rows: Sequence[Any], specs: Sequence[IslandSpec]) -> pa.Table:
+    epoch, channel, kind, source, target, identity, fitness, accepted, reason = _transposed(rows, 9)
+    return _build(
+        "migrations",
+        len(rows),
+        run=run,
+        island=_names([spec.name for spec in specs]),
+        epoch=epoch,
+        channel=_names(channel),
+        kind=_names(kind),
+        source=_names(source),
+        target=_names(target),
+        id=identity,
+        fitness=fitness,
+        accepted=accepted,
+        reason=reason,
+    )
+
+
+def _transposed(rows: Sequence[Any], width: int) -> Iterable[Sequence[Any]]:
+    return zip(*rows, strict=True) if rows else ((),) * width
+
+
+def _build(table: str, rows: int, run: str, **columns: Any) -> pa.Table:  # noqa: ANN401 - arrays or lists
+    import pyarrow as pa
+
+    form = schema(table)
+    columns["run"] = _names([run] * rows)
+    arrays = []
+    for column in form:
+        values = columns[column.name]
+        arrays.append(values if isinstance(values, pa.Array) else pa.array(values, column.type))
+    return pa.Table.from_arrays(arrays, schema=form)
+
+
+def _names(values: Sequence[str | None]) -> pa.Array:
+    import pyarrow as pa
+
+    return pa.array(values, pa.string()).dictionary_encode()
+
+
+def _offsets(lists: Sequence[Sequence[Any]]) -> pa.Array:
+    import numpy as np
+    import pyarrow as pa
+
+    offsets = np.zeros(len(lists) + 1, dtype=np.int32)
+    np.cumsum([len(values) for values in lists], out=offsets[1:])
+    return pa.array(offsets, pa.int32())
+
+
+def _id_lists(lists: Sequence[Sequence[int]]) -> pa.Array:
+    import pyarrow as pa
+
+    values = pa.array(list(chain.from_iterable(lists)), pa.int64())
+    return pa.ListArray.from_arrays(_offsets(lists), values)
+
+
+def _score_maps(lists: Sequence[Sequence[tuple[str, float]]]) -> pa.Array:
+    import pyarrow as pa
+
+    pairs = list(chain.from_iterable(lists))
+    keys: Final = pa.array([key for key, _ in pairs], pa.string())
+    items: Final = pa.array([value for _, value in pairs], pa.float64())
+    kind = schema("individuals").field("scores").type
+    return pa.MapArray.from_arrays(_offsets(lists), keys, items, type=kind)

@@ -1,0 +1,39 @@
+"""Random streams by name: one for each island, purpose and epoch, so that no schedule can disturb another's draws."""
+
+from __future__ import annotations
+
+from enum import IntEnum, unique
+
+import numpy as np
+
+
+@unique
+class Purpose(IntEnum):
+    """What a stream is drawn for. The numbers are part of every run's history: add, never renumber."""
+
+    INITIAL = 0
+    SELECTION = 1
+    VARIATION = 2
+    EMIGRANTS = 3
+    REPLACEMENT = 4
+    GROWTH = 5
+
+
+def stream(seed: int, island: int, purpose: Purpose, epoch: int, *extra: int) -> np.random.Generator:
+    """Give the generator of one island for one purpose in one epoch.
+
+    Parameters
+    ----------
+    seed
+        The run's seed.
+    island
+        The island's number.
+    purpose
+        What is drawn.
+    epoch
+        In which epoch.
+    extra
+        Further keys where one purpose needs several streams, such as a channel's number.
+    """
+    key = (island, int(purpose), epoch, *extra)
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy=seed, spawn_key=key)))

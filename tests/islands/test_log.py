@@ -1,0 +1,130 @@
+"""The log writer: frozen schemas, whole files, and every reader sees the same."""
+
+from __future__ import annotations
+
+import json
+from datetime import UTC, datetime
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from archipelagos import island, ring, spec
+
+from islands.log import LogWriter
+from islands.migration.channel import Channel
+from islands.schemas import TABLES, VERSION, columns, schema
+
+NOON = datetime(2026, 1, 2, 12, 0, 0, tzinfo=UTC)
+
+
+@pytest.fixture
+def written(tmp_path):
+    isles = [
+        island(n, ring(2, Channel(0, "ring", count=2)), growth={"fail_ending": "11", "invert": n == 1}) for n in (0, 1)
+    ]
+    log = LogWriter(tmp_path, "test", [isle.spec for isle in isles], lambda: NOON)
+    steps = [isle.begin() for isle in isles]
+    for epoch in range(4):
+        for isle, step in zip(isles, steps, strict=True):
+            log.add(isle.spec.number, epoch, step.records)
+        sent = [packet for step in steps for packet in step.departures]
+        steps = [
+            isle.advance(s.state, 2, [p for p in sent if p.target == isle.spec.number])
+            for isle, s in zip(isles, steps, strict=True)
+        ]
+        if epoch == 2:
+            log.flush()
+    log.flush()
+    return tmp_path
+
+
+def test_columns_are_the_contract_s() -> None:
+    assert columns("individuals") == (
+        "run", "island", "species", "generation", "epoch", "id", "parents", "components", "partners", "origin",
+        "genotype",
+        "fitness", "scores", "valid", "error", "growth_ms", "evaluation_ms",
+    )  # fmt: skip
+    assert columns("evaluations") == (
+        "run", "island", "generation", "epoch", "id", "reason", "fitness", "scores", "partners", "valid", "error",
+        "evaluation_ms",
+    )  # fmt: skip
+    assert columns("generations") == (
+        "run", "island", "species", "generation", "epoch", "evaluations", "best", "mean", "std", "worst", "diversity",
+        "invalid", "wall_ms",
+    )  # fmt: skip
+    assert columns("migrations") == (
+        "run", "island", "epoch", "channel", "kind", "source", "target", "id", "fitness", "accepted", "reason",
+    )  # fmt: skip
+    assert columns("events") == ("run", "island", "time", "epoch", "kind", "detail")
+
+
+def test_files_are_named_by_epochs_and_islands_and_none_is_left_in_staging(written) -> None:
+    for table in TABLES:
+        names = sorted(path.name for path in (written / table).iterdir())
+        expected = ["e000000-000002-i00000-00001.parquet", "e000003-000003-i00000-00001.parquet"]
+        assert names == expected or (table in ("events", "evaluations") and names == expected[:1])
+    assert not list((written / ".tmp").iterdir())
+
+
+def test_files_hold_the_frozen_schema_zstd_dictionaries_and_split_floats(written) -> None:
+    for table in TABLES:
+        for path in (written / table).iterdir():
+            file = pq.ParquetFile(path)
+            assert file.schema_arrow.equals(schema(table), check_metadata=False)
+            assert file.schema_arrow.metadata[b"atoll.schema"] == VERSION.encode()
+            for group in range(file.metadata.num_row_groups):
+                row_group = file.metadata.row_group(group)
+                for index in range(row_group.num_columns):
+                    column = row_group.column(index)
+                    assert column.compression == "ZSTD"
+                    if column.physical_type == "DOUBLE":
+                        assert "BYTE_STREAM_SPLIT" in column.encodings
+                    if column.path_in_schema in ("run", "island"):
+                        assert "RLE_DICTIONARY" in column.encodings
+
+
+def test_a_row_holds_what_the_record_held(written) -> None:
+    rows = pq.ParquetFile(written / "individuals" / "e000000-000002-i00000-00001.parquet").read().to_pylist()
+    isle = island(0, growth={"fail_ending": "11"})
+    for row, record in zip(rows, isle.begin().records.born, strict=False):
+        assert (row["run"], row["island"], row["species"]) == ("test", "isle-0", "bits")
+        assert (row["id"], row["genotype"], row["fitness"]) == (record.id, record.genotype, record.fitness)
+        assert tuple(row["scores"]) == record.scores
+        assert row["valid"] == (record.fitness is not None) == (row["error"] == "")
+    assert sum(not row["valid"] for row in rows) > 3
+    again = pq.read_table(written / "evaluations" / "e000000-000002-i00000-00001.parquet").to_pylist()
+    assert {row["reason"] for row in again} == {"migrant"}
+    event = pq.read_table(written / "events" / "e000000-000002-i00000-00001.parquet").to_pylist()[0]
+    assert event["kind"] == "repair"
+    assert json.loads(event["detail"]).keys() == {"id", "labels"}
+    assert event["time"] == NOON.replace(tzinfo=None)
+
+
+def test_all_readers_agree_with_a_plain_glob(written) -> None:
+    import duckdb
+    import pandas as pd
+    import polars as pl
+    import pyarrow.dataset
+
+    for table in TABLES:
+        glob = str(written / table / "*.parquet")
+        files = sorted((written / table).glob("*.parquet"))
+        number = "epoch"
+        (by_duckdb,) = duckdb.sql(f"select count(*), sum({number}) from read_parquet('{glob}')").fetchall()
+        lazy = pl.read_parquet(glob)
+        frame = pd.concat([pd.read_parquet(file) for file in files])
+        whole = pyarrow.dataset.dataset(written / table).to_table()
+        sums = {
+            (lazy.height, lazy[number].sum()),
+            (len(frame), frame[number].sum()),
+            (whole.num_rows, pa.compute.sum(whole[number]).as_py()),
+            by_duckdb,
+        }
+        assert len(sums) == 1
+        assert frame["island"].isin(["isle-0", "isle-1"]).all()
+        assert set(lazy["run"]) == {"test"}
+
+
+def test_nothing_buffered_writes_nothing(tmp_path) -> None:
+    assert LogWriter(tmp_path, "test", [spec()], lambda: NOON).flush() == []
+    assert not list(tmp_path.iterdir())
