@@ -126,7 +126,7 @@ class Genr8Mapper:
     Raises
     ------
     InputError
-        For a grammar with label terminals in which no ``<Successor>`` can be reached from the start.
+        For a grammar with label terminals that has no ``<Successor>``.
     """
 
     def __init__(
@@ -139,16 +139,16 @@ class Genr8Mapper:
     ) -> None:
         depths = _depths_reached(grammar)
         labels = Labels() if _has_labels(grammar, Labels()) else None
-        if labels and SUCCESSOR not in depths:
+        if labels and SUCCESSOR not in grammar.rules:
             raise InputError(
                 grammar.source,
-                f"a production <{SUCCESSOR}> that the start leads to (repair expands it)",
+                f"a production <{SUCCESSOR}> (repair expands it)",
                 "none",
                 "name it so, or add it",
             )
-        self._successor_depth = depths.get(SUCCESSOR, 0)
+        self._successor_depth = depths.get(SUCCESSOR, 1)
         self._max_tokens = max_tokens
-        self._mapper = Mapper(_of_profile(grammar, profile), labels, max_depth, wraps, max_tokens)
+        self._mapper = Mapper(of_profile(grammar, profile), labels, max_depth, wraps, max_tokens)
 
     def map(self, genes: Sequence[int]) -> Mapped | Unmapped:
         """Map a genome to a rule file's text.
@@ -221,8 +221,8 @@ def _depths_reached(grammar: Grammar) -> dict[str, int]:
     return depths
 
 
-def _of_profile(grammar: Grammar, profile: Profile) -> Grammar:
-    """Leave out the options ``[ ~ ]`` of the axiom in profile ``paper``."""
+def of_profile(grammar: Grammar, profile: Profile) -> Grammar:
+    """Give the grammar as a profile has it: ``paper`` leaves out the options ``[ ~ ]`` of ``<Axiom>``."""
     if profile == "default" or "Axiom" not in grammar.rules:
         return grammar
     axiom = tuple(_without_turns(sequence) for sequence in grammar.rules["Axiom"])

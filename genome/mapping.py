@@ -163,13 +163,12 @@ class Mapper:
 
 def gene_array(genes: Sequence[int]) -> NDArray[np.int64]:
     """Give genes as an (n,) int64 array; InputError where one is negative or too large."""
-    try:
-        array = np.fromiter(genes, dtype=np.int64, count=len(genes))
-    except (OverflowError, TypeError, ValueError):
-        array = np.full(1, -1, dtype=np.int64)
-    if array.size and array.min() < 0:
+    array = np.asarray(genes)
+    if not array.size:
+        return np.empty(0, dtype=np.int64)
+    if array.dtype.kind != "i" or array.ndim != 1 or array.min() < 0:
         raise InputError("genome", "integers from 0 to 9223372036854775807", "something else", "give a list of them")
-    return array
+    return array.astype(np.int64, copy=False)
 
 
 def compile_kernels() -> None:
