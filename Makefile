@@ -1,0 +1,50 @@
+# Atoll: `make run` and `make test` are all that a fresh machine needs (Debian with Python 3.11 or newer, and make).
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+RUN_READY := $(VENV)/.ready-run
+TEST_READY := $(VENV)/.ready-test
+
+.PHONY: run test lint bench lock clean help
+
+help:            ## say what there is
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 18
+
+run: $(RUN_READY)  ## run the main job and say where its results are
+	@$(BIN)/atoll run experiments/drape.yaml
+
+test: $(TEST_READY)  ## checkers, then the test suite
+	@$(MAKE) --no-print-directory lint
+	@$(BIN)/python -m pytest -q
+
+lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports
+
+bench: $(TEST_READY)  ## benchmarks, as ratios against peers
+	@$(BIN)/python -m benchmarks
+
+lock: $(TEST_READY)  ## write the lock files anew
+	@sh scripts/lock.sh
+
+clean:           ## remove the environment and what tools left
+	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist
+
+$(BIN)/python:
+	@PYTHON="$(PYTHON)" sh scripts/venv.sh $(VENV)
+
+$(RUN_READY): requirements.lock pyproject.toml | $(BIN)/python
+	@echo "Installing the pinned packages ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@echo "Compiling the kernels ..."
+	@$(BIN)/python -m growth.warm
+	@touch $@
+
+$(TEST_READY): $(RUN_READY) requirements-dev.lock
+	@echo "Installing the checkers and test tools ..."
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-dev.lock
+	@touch $@
