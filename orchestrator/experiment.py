@@ -1,0 +1,156 @@
+"""The experiment file as models: one file is one archipelago. ``docs/formats/experiment.md`` describes it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, StringConstraints, field_validator, model_validator
+
+from evaluators.fitness import Goal
+from genome.errors import InputError
+from genome.settings import Settings, describe
+from islands.settings import Algorithm
+
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", max_length=100)]
+Count = Annotated[int, Field(ge=1, le=1_000_000)]
+Seconds = Annotated[float, Field(gt=0, le=1e7)]
+
+
+class IslandSettings(Settings):
+    """One island, or ``count`` alike."""
+
+    kind: str
+    species: Annotated[str, StringConstraints(min_length=1)] | None = None
+    count: Count = 1
+    population: Count = 48
+    genome: dict[str, Any] = Field(default_factory=dict)
+    growth: dict[str, Any] = Field(default_factory=dict)
+    fitness: Annotated[dict[str, Goal], Field(min_length=1)]
+    algorithm: Algorithm = Algorithm()
+
+
+class IslandDefaults(Settings):
+    """What every island takes unless it says otherwise; merged key by key, two levels deep."""
+
+    kind: str | None = None
+    species: str | None = None
+    count: Count | None = None
+    population: Count | None = None
+    genome: dict[str, Any] | None = None
+    growth: dict[str, Any] | None = None
+    fitness: dict[str, Goal] | None = None
+    algorithm: Algorithm | None = None
+
+
+class ChannelSettings(Settings):
+    """A channel: a topology ``among`` islands, or one edge ``from`` an island ``to`` another."""
+
+    kind: Literal["migrants", "partners", "components", "surroundings"] = "migrants"
+    name: Name | None = None
+    topology: str | None = None
+    among: str | list[str] | None = None
+    source: str | None = Field(default=None, alias="from")
+    target: str | None = Field(default=None, alias="to")
+    every: Count = 1
+    count: Count = 1
+    select: Literal["best", "random", "tournament"] = "best"
+    tournament: Count = 2
+    replace: Literal["worst", "random"] = "worst"
+    accept: Literal["always", "better"] = "always"
+
+    @field_validator("among", mode="before")
+    @classmethod
+    def _names(cls, value: object) -> object:
+        names = value if isinstance(value, list) else [value]
+        if value is not None and not all(isinstance(name, str) for name in names):
+            raise InputError("", "an island's name or a list of names", describe(value))
+        return value
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        point = self.source is not None or self.target is not None
+        if point and (self.source is None or self.target is None):
+            missing = "from" if self.source is None else "to"
+            raise InputError("", "both 'from' and 'to'", f"no '{missing}'", "add it")
+        if point and (self.topology is not None or self.among is not None):
+            raise InputError("", "'from' and 'to', or 'topology' and 'among'", "both", "remove one of them")
+        if not point and self.topology is None:
+            raise InputError("", "'topology' and 'among', or 'from' and 'to'", "neither", "add topology: ring")
+        return self
+
+
+class LogSettings(Settings):
+    """How often hosts write the log: every so many generations, rounded up to whole epochs."""
+
+    flush_generations: Count = 25
+
+
+class CheckpointSettings(Settings):
+    """How often a checkpoint is made, in epochs, and how many are kept. Checkpoints are not built yet."""
+
+    every: Count = 4
+    keep: Count = 2
+
+
+class FormSettings(Settings):
+    """How many of each island's best forms are written at the end of the run."""
+
+    best: Annotated[int, Field(ge=0, le=1000)] = 3
+
+
+class DeadlineSettings(Settings):
+    """How long the driver waits, in seconds, before it gives a host up.
+
+    ``epoch`` is for one epoch; unset, it is the number of evaluations in a host's epoch times the longest that one may
+    take, and at least 600 s.
+    """
+
+    start: Seconds = 120.0
+    epoch: Seconds | None = None
+    finish: Seconds = 120.0
+
+
+class Experiment(Settings):
+    """A whole experiment."""
+
+    name: Name
+    seed: Annotated[int, Field(ge=0, lt=2**63)] = 0
+    epochs: Annotated[int, Field(ge=0, le=10**9)] | None = None
+    epoch: Count = 5
+    generations: Annotated[int, Field(ge=0, le=10**12)] | None = None
+    schedule: Literal["barrier", "dataflow", "async"] = "barrier"
+    hosts: Count | Literal["auto"] = "auto"
+    backend: Literal["ray", "inline"] = "ray"
+    defaults: IslandDefaults | None = None
+    islands: Annotated[dict[Name, IslandSettings], Field(min_length=1)]
+    channels: list[ChannelSettings] = Field(default_factory=list)
+    log: LogSettings = LogSettings()
+    checkpoint: CheckpointSettings = CheckpointSettings()
+    forms: FormSettings = FormSettings()
+    deadlines: DeadlineSettings = DeadlineSettings()
+
+    @field_validator("hosts", mode="before")
+    @classmethod
+    def _hosts(cls, value: object) -> object:
+        if value == "auto" or (type(value) is int and value >= 1):
+            return value
+        raise InputError("", "'auto' or a number of at least 1", describe(value))
+
+    @model_validator(mode="after")
+    def _one_length(self) -> Self:
+        if self.epochs is not None and self.generations is not None:
+            got = f"both (epochs {self.epochs}, generations {self.generations})"
+            raise InputError("", "either 'epochs' or 'generations'", got, "remove one of them")
+        return self
+
+    @property
+    def length(self) -> int:
+        """Epochs after the first population: as given, or as many as hold the generations asked for; else 10."""
+        if self.epochs is not None:
+            return self.epochs
+        return 10 if self.generations is None else -(-self.generations // self.epoch)
+
+    @property
+    def flush_epochs(self) -> int:
+        """Epochs between two writings of the log."""
+        return -(-self.log.flush_generations // self.epoch)

@@ -1,0 +1,143 @@
+"""From an experiment file to a resolved experiment: overrides, defaults, kinds, and every check that needs no run."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from genome.errors import InputError
+from genome.settings import Path as KeyPath
+from genome.settings import describe, near, validated
+from genome.yaml import load_yaml
+from islands.kinds.registry import resolve_kind
+from orchestrator.experiment import Experiment, IslandDefaults, IslandSettings
+from orchestrator.overrides import apply_overrides, parse_override
+
+LineOf = Callable[[KeyPath], int | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A resolved experiment: defaults merged, kind settings validated and written out, species named.
+
+    Attributes
+    ----------
+    experiment
+        ``epochs`` is set, ``generations`` and ``defaults`` are not.
+    source
+        The file's name, for messages.
+    base
+        The folder that file names in it are relative to.
+    """
+
+    experiment: Experiment
+    source: str
+    base: Path
+
+    def data(self) -> dict[str, Any]:
+        """Give the experiment as plain data, every default written out."""
+        return self.experiment.model_dump(mode="json", by_alias=True, exclude_none=True)
+
+
+def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
+    """Read and resolve an experiment.
+
+    Parameters
+    ----------
+    path
+        The YAML file.
+    overrides
+        ``key.path=value``, as ``--set`` takes them.
+
+    Raises
+    ------
+    InputError
+        For the first thing that is wrong.
+    """
+    document = load_yaml(path)
+    source = document.source
+    data = document.data
+    if not isinstance(data, Mapping):
+        raise InputError(source, "an experiment: keys and values", describe(data))
+    line_of: LineOf = document.line_of
+    try:
+        changed = apply_overrides(data, overrides)
+        changed.setdefault("name", path.name.split(".")[0])
+        return Loaded(_resolved(changed, source), source, path.resolve().parent)
+    except InputError as error:
+        raise located(error, source, line_of, overrides) from None
+
+
+def located(error: InputError, source: str, line_of: LineOf, overrides: Sequence[str] = ()) -> InputError:
+    """Give the error with the line of the key that it names, or with the ``--set`` that gave it."""
+    head, separator, keys = error.where.partition(f"{source}: ")
+    if head or not separator:
+        return error
+    for override in overrides:
+        given = ".".join(parse_override(override)[0])
+        if keys == given or keys.startswith(f"{given}."):
+            return InputError(f"--set {keys}", error.expected, error.got, error.remedy)
+    path: KeyPath = tuple(int(part) if part.isdecimal() else part for part in keys.split("."))
+    line = line_of(path)
+    where = f"{source}:{line}: {keys}" if line else error.where
+    return InputError(where, error.expected, error.got, error.remedy)
+
+
+def _resolved(data: dict[str, Any], source: str) -> Experiment:
+    defaults = data.pop("defaults", None)
+    if defaults is not None:
+        validated(IslandDefaults, defaults, source, ("defaults",))
+        islands = data.get("islands")
+        if isinstance(islands, Mapping):
+            data["islands"] = {name: _merged(defaults, island) for name, island in islands.items()}
+    experiment = validated(Experiment, data, source)
+    _refuse_unbuilt(experiment, source)
+    islands = {name: _with_kind(name, island, source) for name, island in experiment.islands.items()}
+    changes = {"islands": islands, "epochs": experiment.length, "generations": None, "defaults": None}
+    return experiment.model_copy(update=changes)
+
+
+def _merged(defaults: Mapping[str, Any], island: object) -> object:
+    """Merge defaults into an island: its own keys win, and within a section its own keys win again."""
+    if not isinstance(island, Mapping):
+        return island
+    merged = {**defaults, **island}
+    for key, value in defaults.items():
+        if isinstance(value, Mapping) and isinstance(island.get(key), Mapping):
+            merged[key] = {**value, **island[key]}
+    return merged
+
+
+def _refuse_unbuilt(experiment: Experiment, source: str) -> None:
+    if experiment.schedule != "barrier":
+        got = f"'{experiment.schedule}', which comes with a later version"
+        raise InputError(f"{source}: schedule", "'barrier'", got, "set schedule: barrier")
+    for place, channel in enumerate(experiment.channels):
+        if channel.kind != "migrants":
+            got = f"'{channel.kind}', which comes with a later version"
+            raise InputError(f"{source}: channels.{place}.kind", "'migrants'", got, "set kind: migrants")
+
+
+def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings:
+    """Validate an island's genome and growth by its kind, write out their defaults, and name its species."""
+    kind = resolve_kind(island.kind, f"{source}: islands.{name}.kind")
+    genome = validated(kind.genome, island.genome, source, ("islands", name, "genome")).model_dump(mode="json")
+    growth = validated(kind.growth, island.growth, source, ("islands", name, "growth")).model_dump(mode="json")
+    if island.algorithm.elite >= island.population:
+        where = f"{source}: islands.{name}.algorithm.elite"
+        raise InputError(where, f"less than the population of {island.population}", str(island.algorithm.elite))
+    species = island.species
+    if species is None:
+        meaning = json.dumps(genome, sort_keys=True, allow_nan=False)
+        species = f"{kind.name}-{hashlib.sha256(meaning.encode()).hexdigest()[:8]}"
+    return island.model_copy(update={"genome": genome, "growth": growth, "species": species})
+
+
+def check_name(name: str, known: Sequence[str], where: str, what: str) -> None:
+    """Refuse a name that is not among those known, and suggest the near one."""
+    if name not in known:
+        raise InputError(where, what, f"'{name}'", near(name, list(known)))
