@@ -184,7 +184,7 @@ class _Parser:
         segments: list[Segment] = []
         want_segment, flipped = True, False
         for token in row:
-            if want_segment and token.text == "~":
+            if token.text == "~":
                 flipped = not flipped
             elif want_segment and token.kind == "label":
                 segments.append(Segment(self._label(token), flipped))
@@ -194,7 +194,7 @@ class _Parser:
             else:
                 expected = "an edge of the axiom" if want_segment else "'+' or the end of the axiom"
                 raise self._error(token, expected, "the first line is the axiom, such as 'A + B + A + B'")
-        if want_segment:
+        if want_segment or flipped:
             raise self._error(row[-1], "an edge after it", "", after=True)
         if len(segments) < 3:
             raise self._error(row[0], "at least three edges in the axiom", "the seed is a polygon", f"{len(segments)}")

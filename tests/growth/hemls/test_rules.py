@@ -48,6 +48,8 @@ def test_context(predecessor: str, expected: tuple[int, int | None, int | None])
 
 
 def test_a_tilde_reverses_the_next_segment_only() -> None:
+    # Figure 4 writes the axiom's reversal before the '+'.
+    assert parse_system("A ~ + B + A\nA -> A\nAngle 30\nBranchAngle 30").axiom[1].reversed
     system = parse_system("~ A + B + ~~ A\nA -> ~ + A B [ ~ ] A [ ~ B ]\nAngle 30\nBranchAngle 30")
     assert [segment.reversed for segment in system.axiom] == [True, False, False]
     flips = [symbol.reversed for symbol in system.rules[0].successor if isinstance(symbol, Segment)]
@@ -58,6 +60,7 @@ BAD = {
     "": "f: expected an axiom such as 'A + B + A + B', got an empty file; write one",
     "A + B": "f:1:1: expected at least three edges in the axiom, got 2; the seed is a polygon",
     "A + B + ": "f:1:8: expected an edge after it, got the end of the line",
+    "A + B + A ~": "f:1:12: expected an edge after it, got the end of the line",
     "A + B - A": "f:1:7: expected '+' or the end of the axiom, got '-'",
     "A + B + a": "f:1:9: expected an edge, a turtle command or a keyword, got 'a'",
     "A + B + A\nA -> [ B": "f:2:6: expected a ']' for this '[', got '['; brackets must balance",
