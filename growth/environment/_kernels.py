@@ -85,7 +85,7 @@ def backed_off(start: Floats, end: Floats, hits: Floats, skin: float, fractions:
             dz = end[i, 2] - start[i, 2]
             length = math.sqrt(dx * dx + dy * dy + dz * dz)
             fraction = 0.0
-            if length > 0.0:
+            if length > 0.0 and hits[i] * length > 1.001 * skin:  # nearer is at rest: rounding must not make it creep
                 fraction = max(0.0, hits[i] - skin / length)
             fractions[i] = min(fractions[i], fraction)
 

@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from growth.environment.boundaries.directions import spiral
 from growth.environment.boundaries.protocol import Boundary, Flags, Floats
 
 ROUNDS: Final = 24
@@ -64,7 +65,7 @@ def _searched(boundaries: Sequence[Boundary], point: Floats) -> Floats | None:
     """Find a free place around a point: on growing shells first, then back towards the point by halving."""
     reach = max(_reach(boundary, point) for boundary in boundaries)
     least = max(boundary.skin for boundary in boundaries)
-    directions = _directions()
+    directions = spiral(DIRECTIONS)
     for radius in np.geomspace(least, max(4.0 * reach, 4.0 * least), SHELLS):
         candidates = np.ascontiguousarray(point + radius * directions)
         free = np.flatnonzero(~inside_any(boundaries, candidates))
@@ -87,12 +88,3 @@ def _drawn_back(boundaries: Sequence[Boundary], point: Floats, place: Floats) ->
 def _reach(boundary: Boundary, point: Floats) -> float:
     vertices, _ = boundary.outline(1.0)
     return float(np.abs(vertices - point).max())
-
-
-def _directions() -> Floats:
-    """Give unit vectors (DIRECTIONS, 3) spread evenly over the sphere on a spiral, the first of them upward."""
-    index = np.arange(DIRECTIONS)
-    z = 1.0 - 2.0 * index / (DIRECTIONS - 1)
-    turn = index * np.pi * (3.0 - np.sqrt(5.0))
-    radius = np.sqrt(np.maximum(0.0, 1.0 - z * z))
-    return np.stack([radius * np.cos(turn), radius * np.sin(turn), z], axis=1)

@@ -84,17 +84,33 @@ def environment_settings(
 def _boundary(item: Any, source: str, path: KeyPath, line_of: LineOf | None) -> BoundarySettings:  # noqa: ANN401
     if not isinstance(item, Mapping):
         return validated(BoundarySettings, item, source, path, line_of)
-    line = line_of(path) if line_of else None
-    where = f"{source}:{line}" if line else source
-    where = f"{where}: {'.'.join(str(part) for part in path)}"
+    where = _where(source, path, line_of)
     if "mesh" in item and "shape" in item:
         raise InputError(where, "either a 'shape' or a 'mesh'", "both", "make two boundaries of it")
     if "mesh" in item:
-        return validated(MeshSettings, item, source, path, line_of)
+        return _of_kind(MeshSettings, item, source, path, line_of)
     if "shape" not in item:
         remedy = next((hint for key in item if (hint := near(str(key), ["mesh", "shape"])).startswith("did")), "")
         raise InputError(where, "a 'shape' or a 'mesh'", ", ".join(map(str, item)) or "nothing", remedy)
     shape = item["shape"]
     if not isinstance(shape, str) or shape not in SHAPES:
         raise InputError(f"{where}.shape", "a shape", describe(shape), near(str(shape), list(SHAPES)))
-    return validated(SHAPES[shape][0], item, source, path, line_of)
+    return _of_kind(SHAPES[shape][0], item, source, path, line_of)
+
+
+def _of_kind(
+    model: type[BoundarySettings], item: Mapping[str, Any], source: str, path: KeyPath, line_of: LineOf | None
+) -> BoundarySettings:
+    """Check a boundary, its misspelt keys before the required ones that are missing for it."""
+    known = list(model.model_fields)
+    unknown = next((key for key in item if key not in known), None)
+    if unknown is not None:
+        where = _where(source, (*path, unknown), line_of)
+        raise InputError(where, "a known key", f"'{unknown}'", near(unknown, known))
+    return validated(model, item, source, path, line_of)
+
+
+def _where(source: str, path: KeyPath, line_of: LineOf | None) -> str:
+    line = line_of(path) if line_of else None
+    place = f"{source}:{line}" if line else source
+    return f"{place}: {'.'.join(str(part) for part in path)}"

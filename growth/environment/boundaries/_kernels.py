@@ -46,6 +46,8 @@ def _round(pp: float, pd: float, dd: float, miss: float, radius: float) -> Span:
     if miss >= radius * radius:
         return (math.inf, -math.inf)
     reach = math.sqrt((radius * radius - miss) * dd)
+    if reach == 0.0:
+        return (math.inf, -math.inf)
     c = (pp - radius) * (pp + radius)
     if pd < 0.0:
         return c / (reach - pd), (reach - pd) / dd

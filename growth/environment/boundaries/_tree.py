@@ -246,37 +246,50 @@ def windings(
 
 
 @kernel
-def _nearest_on(corners: Floats, i: int, p: Floats) -> Point:
+def _dot(a: Point, b: Point) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
+def _less(p: Point, q: Point) -> Point:
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+
+
+@kernel
+def _nearest_on(corners: Floats, i: int, p: Point) -> Point:
     """Give the point of a triangle nearest to ``p`` (Ericson 2005, section 5.1.5), folded triangles included."""
-    a, b, c = corners[i, 0], corners[i, 1], corners[i, 2]
-    ab, ac = b - a, c - a
-    ap, bp, cp = p - a, p - b, p - c
-    d1, d2 = np.sum(ab * ap), np.sum(ac * ap)
+    a = (corners[i, 0, 0], corners[i, 0, 1], corners[i, 0, 2])
+    b = (corners[i, 1, 0], corners[i, 1, 1], corners[i, 1, 2])
+    c = (corners[i, 2, 0], corners[i, 2, 1], corners[i, 2, 2])
+    ab, ac = _less(b, a), _less(c, a)
+    ap, bp, cp = _less(p, a), _less(p, b), _less(p, c)
+    d1, d2 = _dot(ab, ap), _dot(ac, ap)
     if d1 <= 0.0 and d2 <= 0.0:
-        return a[0], a[1], a[2]
-    d3, d4 = np.sum(ab * bp), np.sum(ac * bp)
+        return a
+    d3, d4 = _dot(ab, bp), _dot(ac, bp)
     if d3 >= 0.0 and d4 <= d3:
-        return b[0], b[1], b[2]
-    d5, d6 = np.sum(ab * cp), np.sum(ac * cp)
+        return b
+    d5, d6 = _dot(ab, cp), _dot(ac, cp)
     if d6 >= 0.0 and d5 <= d6:
-        return c[0], c[1], c[2]
+        return c
     vc, vb, va = d1 * d4 - d3 * d2, d5 * d2 - d1 * d6, d3 * d6 - d5 * d4
-    s, t = 0.0, 0.0
     if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-        s = d1 / (d1 - d3) if d1 > d3 else 0.0
+        s, t = (d1 / (d1 - d3) if d1 > d3 else 0.0), 0.0
     elif vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-        t = d2 / (d2 - d6) if d2 > d6 else 0.0
+        s, t = 0.0, (d2 / (d2 - d6) if d2 > d6 else 0.0)
     elif va <= 0.0 and d4 >= d3 and d5 >= d6:
         span = (d4 - d3) + (d5 - d6)
         t = (d4 - d3) / span if span > 0.0 else 0.0
         s = 1.0 - t
-    else:
+    elif va + vb + vc > 0.0:
         s, t = vb / (va + vb + vc), vc / (va + vb + vc)
+    else:
+        s, t = 0.0, 0.0
     return a[0] + s * ab[0] + t * ac[0], a[1] + s * ab[1] + t * ac[1], a[2] + s * ab[2] + t * ac[2]
 
 
 @kernel
-def _away(boxes: Floats, b: int, p: Floats) -> float:
+def _away(boxes: Floats, b: int, p: Point) -> float:
     """Give the squared distance of a point from a box."""
     total = 0.0
     for j in range(3):
@@ -304,7 +317,7 @@ def nearest(corners: Floats, boxes: Floats, first: Indices, count: Indices, poin
     which = np.zeros(points.shape[0], np.int32)
     stack = np.empty(STACK, np.int32)
     for i in range(points.shape[0]):
-        p, best = points[i], np.inf
+        p, best = (points[i, 0], points[i, 1], points[i, 2]), np.inf
         stack[0], waiting = 0, 1
         while waiting > 0:
             waiting -= 1
@@ -320,8 +333,8 @@ def nearest(corners: Floats, boxes: Floats, first: Indices, count: Indices, poin
                 continue
             for k in range(first[b], first[b] + count[b]):
                 q = _nearest_on(corners, k, p)
-                x, y, z = q[0] - p[0], q[1] - p[1], q[2] - p[2]
-                distance = x * x + y * y + z * z
+                away = _less(q, p)
+                distance = _dot(away, away)
                 if distance < best:
                     best = distance
                     which[i] = k

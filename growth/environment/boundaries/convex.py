@@ -81,8 +81,8 @@ def frame_along(axis: Sequence[float]) -> Floats:
     z = np.array(axis, dtype=np.float64)
     z = z / np.abs(z).max()  # first, so that no square underflows
     z = z / np.linalg.norm(z)
-    if z[0] == 0.0 and z[1] == 0.0:
-        return np.diag([1.0, z[2], z[2]])
+    if np.hypot(z[0], z[1]) < 1e-150:
+        return np.diag([1.0, np.sign(z[2]), np.sign(z[2])])
     x = np.cross([0.0, 0.0, 1.0], z)
     x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z])

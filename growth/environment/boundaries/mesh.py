@@ -14,6 +14,7 @@ from genome.errors import InputError
 from genome.settings import Vector3
 from growth.environment.boundaries import _tree as tree
 from growth.environment.boundaries.convex import frame_turned
+from growth.environment.boundaries.directions import spiral
 from growth.environment.boundaries.files import read_mesh
 from growth.environment.boundaries.protocol import BoundarySettings, Flags, Floats, Triangles, skin_for
 
@@ -93,7 +94,19 @@ class Mesh:
         away[shallow] = normal[shallow]
         length = np.linalg.norm(away, axis=1)
         length[length == 0.0] = 1.0
-        return np.asarray(place + away * (clearance * self.skin / length)[:, None])
+        away /= length[:, None]
+        out = place + clearance * self.skin * away
+        for index in np.flatnonzero(self.inside(out)):
+            out[index] = self._beside(place[index], away[index], clearance * self.skin, out[index])
+        return out
+
+    def _beside(self, place: Floats, away: Floats, gap: float, otherwise: Floats) -> Floats:
+        """Step off a place on the surface where straight on is no way out: in the tip of a narrow free wedge."""
+        directions = spiral(64)
+        ways = directions[np.argsort(-(directions @ away), kind="stable")]
+        candidates = np.ascontiguousarray(place + gap * ways)
+        free = np.flatnonzero(~self.inside(candidates))
+        return candidates[free[0]] if len(free) else otherwise
 
     def outline(self, extent: float) -> tuple[Floats, Triangles]:
         """Give the mesh itself."""
