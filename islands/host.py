@@ -111,24 +111,33 @@ class Host:
         clock: Clock = time.perf_counter,
         calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
     ) -> None:
-        pin_threads()
         self._plan = plan
+        self._clock = clock
         self._stop = threading.Event()
-        edges: dict[int, list[Edge]] = defaultdict(list)
-        for edge in plan.edges:
-            for end in dict.fromkeys((edge.source, edge.target)):
-                edges[end].append(edge)
-        self._islands: list[Island[Any]] = []
-        for spec in plan.islands:
-            biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, clock)
-            self._islands.append(Island(spec, biology, plan.seed, edges[spec.number], clock, self._pulse))
+        self._islands: tuple[Island[Any], ...] = ()
         self._states: dict[int, State[Any]] = {}
         self._kept: Box = ()
         self._log = LogWriter(Path(plan.folder) / "log", plan.run, plan.islands, calendar)
 
     def ready(self) -> int:
-        """Tell that the host stands; gives its number."""
+        """Make the islands; to be called once, before all else. Gives the host's number.
+
+        Raises
+        ------
+        InputError
+            When an island's settings do not hold together here: a file or plug-in that this machine lacks.
+        """
+        pin_threads()
+        edges: dict[int, list[Edge]] = defaultdict(list)
+        for edge in self._plan.edges:
+            for end in dict.fromkeys((edge.source, edge.target)):
+                edges[end].append(edge)
+        self._islands = tuple(self._made(spec, edges[spec.number]) for spec in self._plan.islands)
         return self._plan.host
+
+    def _made(self, spec: IslandSpec, edges: Sequence[Edge]) -> Island[Any]:
+        biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock)
+        return Island(spec, biology, self._plan.seed, edges, self._clock, self._pulse)
 
     def stop(self) -> None:
         """Ask for the epoch in hand to be abandoned; may be called from another thread."""
@@ -188,7 +197,7 @@ class Host:
         valid = [member for member in ranked(deme) if member.fitness is not None]
         files: list[str] = []
         for rank, member in enumerate(valid[: self._plan.best_forms], start=1):
-            stem = folder / f"{island.spec.name}-{rank}"
+            stem = folder / f"{island.spec.name}-best{rank}"
             files.extend(str(path) for path in island.biology.write_forms(member.genotype, stem, ()))
         return files
 

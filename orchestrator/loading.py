@@ -32,11 +32,17 @@ class Loaded:
         The file's name, for messages.
     base
         The folder that file names in it are relative to.
+    notes
+        What the person who wrote it should know.
+    locate
+        Gives an error about a key with the line where the key stands.
     """
 
     experiment: Experiment
     source: str
     base: Path
+    notes: tuple[str, ...] = ()
+    locate: Callable[[InputError], InputError] = lambda error: error
 
     def data(self) -> dict[str, Any]:
         """Give the experiment as plain data, every default written out."""
@@ -63,13 +69,17 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
     data = document.data
     if not isinstance(data, Mapping):
         raise InputError(source, "an experiment: keys and values", describe(data))
-    line_of: LineOf = document.line_of
+
+    def locate(error: InputError) -> InputError:
+        return located(error, source, document.line_of, overrides)
+
     try:
         changed = apply_overrides(data, overrides)
         changed.setdefault("name", path.name.split(".")[0])
-        return Loaded(_resolved(changed, source), source, path.resolve().parent)
+        notes = ("checkpoint: accepted, but this version writes no checkpoints yet",) if "checkpoint" in changed else ()
+        return Loaded(_resolved(changed, source), source, path.resolve().parent, notes, locate)
     except InputError as error:
-        raise located(error, source, line_of, overrides) from None
+        raise locate(error) from None
 
 
 def located(error: InputError, source: str, line_of: LineOf, overrides: Sequence[str] = ()) -> InputError:

@@ -1,0 +1,110 @@
+"""Checking a file as the command that uses it would."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Final
+
+from genome.errors import InputError
+from genome.yaml import load_yaml
+
+LATER: Final = (".body.json", ".blocks", ".tl", ".plan")
+"""Suffixes of files whose engines are not built yet."""
+
+ENVIRONMENT_KEYS: Final = frozenset({"gravity", "attractors", "repellers", "boundaries"})
+
+
+def refuse_later(path: Path) -> None:
+    """Refuse a file whose engine is not built yet, by its suffix."""
+    for suffix in LATER:
+        if path.name.endswith(suffix):
+            remedy = "this version grows .hemls files"
+            raise InputError(str(path), "a file of a kind that is built", f"'{suffix}', which comes later", remedy)
+
+
+def read_text(path: Path, what: str) -> str:
+    """Read a text file.
+
+    Raises
+    ------
+    InputError
+        When it is not there, cannot be read, or is not UTF-8.
+    """
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise InputError(str(path), what, "no such file", "check the path") from None
+    except UnicodeDecodeError:
+        raise InputError(str(path), what, "bytes that are not UTF-8") from None
+    except OSError as error:
+        raise InputError(str(path), what, error.strerror or str(error)) from None
+
+
+def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ...]]:
+    """Check a file.
+
+    Parameters
+    ----------
+    path
+        An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``), or a grammar (``.bnf``).
+    overrides
+        For an experiment, as ``--set`` takes them.
+
+    Returns
+    -------
+    What the file is, and notes to its writer.
+
+    Raises
+    ------
+    InputError
+        For the first thing that is wrong.
+    """
+    refuse_later(path)
+    checks: Mapping[str, Callable[[Path], str]] = {".hemls": _rules, ".bnf": _grammar}
+    if path.suffix in checks:
+        if overrides:
+            raise InputError("--set", "an experiment to set something in", str(path))
+        return checks[path.suffix](path), ()
+    if path.suffix in (".yaml", ".yml"):
+        if _is_environment(path):
+            from growth.environment import load_environment
+
+            load_environment(path)
+            return "environment", ()
+        return "experiment", _experiment(path, overrides)
+    if not path.exists():
+        raise InputError(str(path), "a file", "no such file", "check the path")
+    raise InputError(str(path), "a .yaml, .hemls or .bnf file", f"'{path.suffix or path.name}'")
+
+
+def _is_environment(path: Path) -> bool:
+    data = load_yaml(path).data
+    if not isinstance(data, Mapping):
+        return path.name.endswith((".env.yaml", ".env.yml"))
+    return "islands" not in data and (bool(ENVIRONMENT_KEYS & data.keys()) or ".env." in path.name)
+
+
+def _rules(path: Path) -> str:
+    from growth.hemls import parse_system
+
+    parse_system(read_text(path, "a rule file"), str(path))
+    return "rules"
+
+
+def _grammar(path: Path) -> str:
+    from genome.bnf import parse_bnf
+
+    parse_bnf(read_text(path, "a grammar"), str(path))
+    return "grammar"
+
+
+def _experiment(path: Path, overrides: Sequence[str]) -> tuple[str, ...]:
+    """Check all that a run checks before it starts."""
+    from orchestrator.loading import load_experiment
+    from orchestrator.run import make_backend, prepare
+
+    loaded = load_experiment(path, overrides)
+    prepare(loaded)
+    make_backend(loaded, None)
+    return loaded.notes

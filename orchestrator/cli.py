@@ -1,0 +1,88 @@
+"""The command line: ``atoll COMMAND``. Each command is a module of its own, imported when it is called."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any, Final, final
+
+import click
+
+from genome.errors import InputError
+
+COMMANDS: Final = {
+    "run": "Run an experiment.",
+    "grow": "Grow one form, without evolution.",
+    "check": "Validate a file without running it.",
+    "show": "Show how a run stands.",
+    "query": "Put an SQL query to a run's log.",
+    "digest": "Give one hash of what happened in a run.",
+    "replay": "Regrow a logged individual and score it again.",
+    "export": "Write forms of a run's individuals.",
+    "schema": "Print the JSON Schema of the experiment file.",
+}
+"""The commands in the order of the help; ``orchestrator.commands.NAME`` holds each as ``command``."""
+
+
+class Complaint(click.ClickException):
+    """One clear message on stderr, and an exit code."""
+
+    def __init__(self, message: str, code: int) -> None:
+        super().__init__(message)
+        self.exit_code = code
+
+    def show(self, file: Any = None) -> None:  # noqa: ANN401 - as click declares it
+        """Print the message."""
+        click.echo(f"atoll: {self.message}", err=True, file=file)
+
+
+@final
+class LazyGroup(click.Group):
+    """A group that imports a command's module when the command is called, so that ``--help`` is quick."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Give the commands' names."""
+        del ctx
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import a command; ``None`` for an unknown one."""
+        del ctx
+        if cmd_name not in COMMANDS:
+            return None
+        found = importlib.import_module(f"orchestrator.commands.{cmd_name}").command
+        assert isinstance(found, click.Command)
+        return found
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the commands into the help without importing them."""
+        del ctx
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def invoke(self, ctx: click.Context) -> Any:  # noqa: ANN401 - as click declares it
+        """Call the command, and turn the errors that are expected into one message and an exit code."""
+        try:
+            return super().invoke(ctx)
+        except InputError as error:
+            raise Complaint(str(error), 2) from None
+        except KeyboardInterrupt:
+            raise Complaint("interrupted", 130) from None
+        except OSError as error:
+            if isinstance(error, BrokenPipeError):
+                raise
+            place = f"{error.filename}: " if error.filename else ""
+            raise Complaint(f"{place}{error.strerror or error}", 1) from None
+
+
+@click.command(
+    cls=LazyGroup,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110},
+    epilog="Example: atoll run experiments/drape.yaml",
+)
+@click.version_option(package_name="atoll", prog_name="atoll")
+def main() -> None:
+    """Grow architectural form from evolved instructions, on an archipelago of islands."""
+
+
+if __name__ == "__main__":
+    main()

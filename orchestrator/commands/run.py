@@ -1,0 +1,92 @@
+"""``atoll run``."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import click
+
+from genome.errors import InputError
+from orchestrator.commands._options import emit, example, json_option
+
+
+@click.command(
+    "run",
+    epilog=example(
+        "atoll run experiments/drape.yaml",
+        "atoll run experiments/drape.yaml --set generations=4 --set backend=inline --json",
+    ),
+)
+@click.argument("experiment", type=click.Path(path_type=Path))
+@click.option("--runs-dir", type=click.Path(path_type=Path), default=Path("runs"), show_default=True,
+              help="Where run folders stand.")  # fmt: skip
+@click.option("--name", help="The run's name; by default the experiment's, with a number if it is taken.")
+@click.option("--seed", type=click.IntRange(min=0, max=2**63 - 1), help="In place of the experiment's seed.")
+@click.option("--set", "overrides", multiple=True, metavar="KEY.PATH=VALUE", help="In place of any of its settings.")
+@click.option("--address", help="A running Ray cluster; a local Ray is started without.")
+@json_option
+def command(
+    experiment: Path,
+    runs_dir: Path,
+    name: str | None,
+    seed: int | None,
+    overrides: tuple[str, ...],
+    address: str | None,
+    as_json: bool,
+) -> None:
+    """Run EXPERIMENT, a YAML file, and write its forms and log under the runs folder."""
+    from orchestrator.backends.protocol import RunFailedError
+    from orchestrator.cli import Complaint
+    from orchestrator.loading import load_experiment
+    from orchestrator.progress import progress_on
+    from orchestrator.run import make_backend, run_experiment
+
+    if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
+        raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")
+    if seed is not None:
+        overrides = (*overrides, f"seed={seed}")
+    loaded = load_experiment(experiment, overrides)
+    backend = make_backend(loaded, address)
+    progress = progress_on(sys.stderr if as_json else sys.stdout)
+    for note in loaded.notes:
+        progress.note(f"note: {note}")
+    try:
+        outcome = run_experiment(loaded, backend, runs_dir, name, progress)
+    except RunFailedError as error:
+        raise Complaint(str(error), 1) from None
+    if as_json:
+        emit(
+            {
+                "run": str(outcome.folder),
+                "name": outcome.folder.name,
+                "status": outcome.status,
+                "islands": outcome.islands,
+                "generations": outcome.generations,
+                "evaluations": outcome.evaluations,
+                "best": outcome.best,
+                "wall_s": outcome.wall_s,
+            }
+        )
+    else:
+        _tell(outcome.folder, outcome.status, outcome.best)
+        click.echo(f"{outcome.evaluations} evaluations in {outcome.wall_s:.1f} s")
+    if outcome.status == "failed":
+        raise Complaint(outcome.reason, 1)
+    if outcome.status == "stopped":
+        raise click.exceptions.Exit(130)
+
+
+def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
+    """Say where the run's forms and log are, and what to do with them."""
+    here = Path.cwd()
+    shown = folder.relative_to(here) if folder.is_relative_to(here) else folder
+    click.echo(f"\n{status}: {shown}")
+    if best is not None:
+        click.echo(f"best: {best['id']} of island {best['island']}, fitness {best['fitness']:.6g}")
+    click.echo(f"forms: {shown}/forms")
+    click.echo(f"log: {shown}/log (Parquet)")
+    click.echo(f"next: atoll show {shown}")
+    click.echo(f'      atoll query {shown} "select island, max(fitness) from individuals group by island"')
+    click.echo(f"      atoll export {shown} --best 3 --format glb,png -o forms")

@@ -1,0 +1,52 @@
+"""One hash of what happened in a run, the same for every way of getting there.
+
+Each row of individuals, evaluations, generations and migrations is written as one line of JSON, without the run's
+name and the clock's columns; the lines' hashes are sorted and hashed. Floats are written so that they read back to
+the same bits.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Final
+
+from islands.schemas import CLOCKED, columns
+
+DIGESTED: Final = ("individuals", "evaluations", "generations", "migrations")
+
+
+def digest(log: Path) -> tuple[str, int]:
+    """Digest a log.
+
+    Parameters
+    ----------
+    log
+        The run's ``log`` folder.
+
+    Returns
+    -------
+    The digest in hexadecimal, and how many rows it covers.
+    """
+    hashes: list[bytes] = []
+    for table in DIGESTED:
+        hashes.extend(hashlib.sha256(line).digest() for line in _lines(log, table))
+    whole = hashlib.sha256()
+    for part in sorted(hashes):
+        whole.update(part)
+    return whole.hexdigest(), len(hashes)
+
+
+def _lines(log: Path, table: str) -> Iterator[bytes]:
+    import pyarrow.parquet as pq
+
+    kept = [name for name in columns(table) if name != "run" and name not in CLOCKED]
+    for path in sorted((log / table).glob("*.parquet")):
+        with pq.ParquetFile(path) as file:
+            for batch in file.iter_batches(columns=kept):
+                lists = [batch.column(name).to_pylist() for name in kept]
+                for row in zip(*lists, strict=True):
+                    text = json.dumps([table, *row], separators=(",", ":"), allow_nan=False)
+                    yield text.encode()

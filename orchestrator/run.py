@@ -1,0 +1,287 @@
+"""A run from beginning to end: checks, folder, the loop of events and instructions, and the verdict."""
+
+from __future__ import annotations
+
+import signal
+import threading
+import time
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from types import FrameType
+from typing import Any, Final
+
+from genome.errors import InputError
+from islands.host import IslandSummary
+from islands.kinds.registry import resolve_kind
+from islands.log import Event as LogEvent
+from islands.log import events_table, write
+from orchestrator import archipelago as machine
+from orchestrator.backends.protocol import Backend, Deadlines, RunFailedError
+from orchestrator.folder import RunFolder, choose_path, create, remove
+from orchestrator.loading import Loaded, load_experiment
+from orchestrator.plan import Plan, host_plans, make_plan
+from orchestrator.progress import Progress
+
+POLL_S: Final = 0.25
+LEAST_EPOCH_S: Final = 600.0
+MOST_EPOCH_S: Final = 86_400.0
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a run.
+
+    Attributes
+    ----------
+    folder
+        The run's folder; it does not exist when the run failed before its first populations were scored.
+    status, reason
+        How it ended, and why.
+    islands, generations, evaluations
+        How many islands; generations that all of them finished; scorings done until then.
+    best
+        The best individual at the last such generation: island, id, fitness; ``None`` when all were invalid.
+    wall_s
+        Wall time from start to end.
+    """
+
+    folder: Path
+    status: machine.Status
+    reason: str
+    islands: int
+    generations: int
+    evaluations: int
+    best: dict[str, Any] | None
+    wall_s: float
+
+
+def seconds_of(plan: Plan) -> dict[str, float]:
+    """Build the biology of each group of islands once, as hosts will; give what one evaluation may take in seconds.
+
+    Raises
+    ------
+    InputError
+        For whatever is wrong with their settings and the files that these name.
+    """
+    groups = {spec.group: spec for spec in plan.islands}
+    return {
+        name: float(resolve_kind(spec.kind, spec.where("kind")).build(spec, time.perf_counter).seconds)
+        for name, spec in groups.items()
+    }
+
+
+def prepare(loaded: Loaded) -> tuple[Plan, dict[str, float]]:
+    """Make the plan and check all that can be checked before a host stands; give the plan and ``seconds_of`` it.
+
+    Raises
+    ------
+    InputError
+        For the first thing that is wrong, with its line in the file.
+    """
+    try:
+        plan = make_plan(loaded)
+        return plan, seconds_of(plan)
+    except InputError as error:
+        raise loaded.locate(error) from None
+
+
+def make_backend(loaded: Loaded, address: str | None) -> Backend:
+    """Give the backend that an experiment asks for.
+
+    Raises
+    ------
+    InputError
+        When the machine has too few CPUs for its hosts, or an address is given to the in-process backend.
+    """
+    from orchestrator.backends.inline import InlineBackend
+    from orchestrator.backends.ray import RayBackend, hosts_for, machine_cpus
+
+    experiment = loaded.experiment
+    islands = sum(settings.count for settings in experiment.islands.values())
+    if experiment.backend == "inline":
+        if address is not None:
+            raise InputError("--address", "no address with backend: inline", f"'{address}'", "set backend: ray")
+        return InlineBackend()
+    if address is None:
+        try:
+            hosts_for(experiment.hosts, islands, machine_cpus())
+        except InputError as error:
+            where = f"{loaded.source}: hosts"
+            raise loaded.locate(InputError(where, error.expected, error.got, error.remedy)) from None
+    return RayBackend(experiment.hosts, islands, address)
+
+
+def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str | None, progress: Progress) -> Outcome:
+    """Run an experiment.
+
+    Parameters
+    ----------
+    loaded
+        The resolved experiment, checked.
+    backend
+        Where the hosts are to be.
+    runs_dir
+        Where run folders stand.
+    name
+        The run's name, if one was asked for.
+    progress
+        Is told how it goes.
+
+    Raises
+    ------
+    InputError, RunFailedError
+        When it cannot start; there is no folder then.
+    KeyboardInterrupt
+        On a second Ctrl-C.
+    """
+    started, clock = datetime.now(UTC), time.perf_counter()
+    plan, seconds = prepare(loaded)
+    path = choose_path(runs_dir, name or loaded.experiment.name, explicit=name is not None)
+    stop = threading.Event()
+    with _interruptible(stop, backend):
+        try:
+            hosts = backend.open()
+            facts = {"backend": loaded.experiment.backend, "hosts": hosts, "islands": len(plan.islands)}
+            folder = create(path, loaded, started, facts)
+            try:
+                return _Drive(folder, backend, hosts, seconds, progress, clock).to_the_end(stop)
+            except BaseException:
+                _conclude_badly(folder)
+                raise
+        finally:
+            progress.close()
+            backend.close()
+
+
+def _conclude_badly(folder: RunFolder) -> None:
+    """Close the manifest of a run that was broken off hard."""
+    if folder.path.exists() and folder.manifest().get("status") == "running":
+        folder.update(status="stopped", ended=datetime.now(UTC).isoformat(timespec="seconds"))
+
+
+@contextmanager
+def _interruptible(stop: threading.Event, backend: Backend) -> Iterator[None]:
+    """Let the first Ctrl-C (or SIGTERM) ask for a clean stop, and the second break off."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def asked(number: int, frame: FrameType | None) -> None:
+        del number, frame
+        if stop.is_set():
+            raise KeyboardInterrupt
+        stop.set()
+        backend.interrupt()
+
+    before = {number: signal.signal(number, asked) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+class _Drive:
+    """The loop around the state machine, and what the driver remembers: a line an island."""
+
+    def __init__(
+        self,
+        folder: RunFolder,
+        backend: Backend,
+        hosts: int,
+        seconds: dict[str, float],
+        progress: Progress,
+        clock: float,
+    ) -> None:
+        # The run goes by its own folder from here on, as a replay will.
+        loaded = load_experiment(folder.experiment)
+        self.loaded = replace(loaded, source=str(folder.experiment))
+        self.folder, self.backend, self.hosts, self.progress = folder, backend, hosts, progress
+        self.plan = make_plan(self.loaded)
+        self.deadlines = _deadlines(self.loaded, self.plan, hosts, seconds)
+        self.clock = clock
+        self.latest: tuple[IslandSummary, ...] = ()
+        self.evaluations = 0
+        self.written = 0
+
+    def to_the_end(self, stop: threading.Event) -> Outcome:
+        experiment = self.loaded.experiment
+        plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.path)
+        self.backend.begin(plans, self.deadlines)
+        self._tell("start", {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed})
+        self.progress.begin(self.plan, experiment, self.folder.path)
+        state = machine.Archipelago(self.hosts, experiment.length)
+        events: deque[machine.Event] = deque([machine.Begun()])
+        told = False
+        while True:
+            event = events.popleft() if events else self.backend.wait(POLL_S)
+            if stop.is_set() and not told:
+                events.append(machine.StopAsked())
+                self.progress.note("stopping: the epoch in hand is given up, the log is written")
+                told = True
+            if event is None:
+                continue
+            state, instructions = machine.decide(state, event)
+            for instruction in instructions:
+                if isinstance(instruction, machine.Conclude):
+                    return self._conclude(instruction)
+                if isinstance(instruction, machine.Report):
+                    self._report(instruction.epoch)
+                else:
+                    self.backend.perform(instruction)
+
+    def _report(self, epoch: int) -> None:
+        self.latest = self.backend.summaries(epoch)
+        self.evaluations += sum(row.evaluations for row in self.latest)
+        self.progress.epoch(epoch, self.latest)
+
+    def _conclude(self, end: machine.Conclude) -> Outcome:
+        best = best_row(self.latest)
+        outcome = Outcome(
+            folder=self.folder.path,
+            status=end.status,
+            reason=end.reason,
+            islands=len(self.plan.islands),
+            generations=max((row.generation for row in self.latest), default=0),
+            evaluations=self.evaluations,
+            best=best,
+            wall_s=round(time.perf_counter() - self.clock, 3),
+        )
+        if end.status == "failed" and not end.settled:
+            remove(self.folder)
+            raise RunFailedError(end.reason)
+        self._tell({"finished": "finish", "failed": "failure", "stopped": "stop"}[end.status], {"reason": end.reason})
+        facts = {"generations": outcome.generations, "evaluations": outcome.evaluations, "best": best}
+        ended = datetime.now(UTC).isoformat(timespec="seconds")
+        self.folder.update(status=end.status, ended=ended, error=end.reason, wall_s=outcome.wall_s, **facts)
+        return outcome
+
+    def _tell(self, kind: str, detail: dict[str, Any]) -> None:
+        """Write an event of the whole run at once, so that the log of a killed run tells of its start."""
+        epoch = self.latest[0].epoch if self.latest else None
+        event = LogEvent(None, datetime.now(UTC), epoch, kind, detail)
+        write(self.folder.log, "events", f"run-{self.written:04d}", events_table(self.folder.name, [event]))
+        self.written += 1
+
+
+def best_row(rows: tuple[IslandSummary, ...]) -> dict[str, Any] | None:
+    """Give the best individual among the islands' best: island, id, fitness."""
+    valid = [row for row in rows if row.best is not None]
+    if not valid:
+        return None
+    top = min(valid, key=lambda row: (-(row.best or 0.0), row.best_id or 0))
+    return {"island": top.island, "id": top.best_id, "fitness": top.best}
+
+
+def _deadlines(loaded: Loaded, plan: Plan, hosts: int, seconds: dict[str, float]) -> Deadlines:
+    settings, generations = loaded.experiment.deadlines, loaded.experiment.epoch
+    if settings.epoch is not None:
+        return Deadlines(settings.start, settings.epoch, settings.finish)
+    share = -(-len(plan.islands) // hosts)
+    heaviest = sorted((spec.population * seconds[spec.group] for spec in plan.islands), reverse=True)[:share]
+    epoch = min(max(sum(heaviest) * generations, LEAST_EPOCH_S), MOST_EPOCH_S)
+    return Deadlines(settings.start, epoch, settings.finish)
