@@ -17,6 +17,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final, final
 
+from genome.errors import InputError
 from growth.protocol import Clock
 from islands.individual import Individual
 from islands.island import Advance, Island, State
@@ -132,12 +133,17 @@ class Host:
         for edge in self._plan.edges:
             for end in dict.fromkeys((edge.source, edge.target)):
                 edges[end].append(edge)
-        self._islands = tuple(self._made(spec, edges[spec.number]) for spec in self._plan.islands)
+        # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
+        # need no ten thousand environments.
+        groups = {spec.group: spec for spec in self._plan.islands}
+        biology = {
+            name: resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock) for name, spec in groups.items()
+        }
+        self._islands = tuple(
+            Island(spec, biology[spec.group], self._plan.seed, edges[spec.number], self._clock, self._pulse)
+            for spec in self._plan.islands
+        )
         return self._plan.host
-
-    def _made(self, spec: IslandSpec, edges: Sequence[Edge]) -> Island[Any]:
-        biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock)
-        return Island(spec, biology, self._plan.seed, edges, self._clock, self._pulse)
 
     def stop(self) -> None:
         """Ask for the epoch in hand to be abandoned; may be called from another thread."""
@@ -191,6 +197,7 @@ class Host:
             state = self._states.get(island.spec.number)
             if state is not None:
                 files.extend(self._write_forms(island, state.deme, folder))
+        self._log.flush()
         return tuple(files)
 
     def _write_forms(self, island: Island[Any], deme: Sequence[Individual[Any]], folder: Path) -> list[str]:
@@ -198,7 +205,19 @@ class Host:
         files: list[str] = []
         for rank, member in enumerate(valid[: self._plan.best_forms], start=1):
             stem = folder / f"{island.spec.name}-best{rank}"
-            files.extend(str(path) for path in island.biology.write_forms(member.genotype, stem, ()))
+            facts: dict[str, str | float | bool] = {
+                "run": self._plan.run,
+                "island": island.spec.name,
+                "id": str(member.id),
+                "fitness": member.fitness or 0.0,
+            }
+            try:
+                written = island.biology.write_forms(member.genotype, stem, (), facts)
+            except InputError as error:
+                detail = {"id": member.id, "detail": str(error)}
+                self._log.tell(island.spec.number, self._states[island.spec.number].epoch, "form", detail)
+                continue
+            files.extend(str(path) for path in written)
         return files
 
     def _step(self, island: Island[Any], epoch: int, arrivals: Sequence[Packet]) -> Advance[Any]:

@@ -66,12 +66,24 @@ class LogWriter:
             name = self._islands[island].name
             self._events.extend(Event(name, now, note.epoch, note.kind, note.detail) for note in records.notes)
 
+    def tell(self, island: int, epoch: int, kind: str, detail: dict[str, Any]) -> None:
+        """Take an event of one island."""
+        self._events.append(Event(self._islands[island].name, self._calendar(), epoch, kind, detail))
+
     def flush(self) -> list[Path]:
-        """Write what is buffered, one file for each table that has rows; give the files."""
-        if not self._buffer:
+        """Write what is buffered, one file for each table that has rows; give the files.
+
+        Each epoch's records come in one piece; only events may be told of an epoch that is written already, and then
+        they stand in a file of their own.
+        """
+        if not self._buffer and not self._events:
             return []
         epochs = [epoch for _, epoch, _ in self._buffer]
+        if not epochs:
+            epochs = [event.epoch or 0 for event in self._events]
         span = f"e{min(epochs):06d}-{max(epochs):06d}-i{min(self._islands):05d}-{max(self._islands):05d}"
+        if not self._buffer:
+            span = f"{span}-after"
         tables = {name: self._table(name) for name in TABLES if name != "events"}
         tables["events"] = events_table(self._run, self._events)
         files = [write(self._folder, name, span, table) for name, table in tables.items() if table.num_rows]

@@ -28,7 +28,7 @@ class Complaint(click.ClickException):
 
     def __init__(self, message: str, code: int) -> None:
         super().__init__(message)
-        self.exit_code = code
+        setattr(self, "exit_code", code)  # noqa: B010 - click declares it for the class, and reads it here
 
     def show(self, file: Any = None) -> None:  # noqa: ANN401 - as click declares it
         """Print the message."""

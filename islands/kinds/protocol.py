@@ -15,6 +15,8 @@ from islands.spec import IslandSpec
 
 G = TypeVar("G")
 
+Facts = Mapping[str, str | float | bool]
+
 Keep = Callable[[str, str, bytes], str]
 """Keeps a file with the run: takes a folder's name, a file's name and its content, gives the path to write in its
 stead, relative to the run's folder."""
@@ -72,7 +74,7 @@ class Biology(Protocol[G]):
         """Say how different genotypes are, from 0 to 1; ``None`` for fewer than two."""
         ...
 
-    def write_forms(self, genotype: G, stem: Path, formats: Sequence[str]) -> list[Path]:
+    def write_forms(self, genotype: G, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
         """Grow a genotype and write its form.
 
         Parameters
@@ -83,6 +85,8 @@ class Biology(Protocol[G]):
             The files' path without suffix; its folder exists.
         formats
             Suffixes without the dot; empty for the kind's usual ones.
+        facts
+            What the form is, written into files of formats that have a place for it.
 
         Returns
         -------
@@ -91,7 +95,7 @@ class Biology(Protocol[G]):
         Raises
         ------
         InputError
-            For a format that the kind does not write.
+            For a format that the kind does not write, or a form that cannot be written in it.
         """
         ...
 

@@ -57,6 +57,6 @@ def command(run: str, sql: str, form: str, output: Path | None, as_json: bool) -
 
 def _put(content: bytes, output: Path | None) -> None:
     if output is None:
-        click.get_binary_stream("stdout").write(content)
+        click.echo(content, nl=False)
     else:
         output.write_bytes(content)

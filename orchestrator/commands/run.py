@@ -88,5 +88,6 @@ def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
     click.echo(f"forms: {shown}/forms")
     click.echo(f"log: {shown}/log (Parquet)")
     click.echo(f"next: atoll show {shown}")
-    click.echo(f'      atoll query {shown} "select island, max(fitness) from individuals group by island"')
+    sql = "select island, max(fitness) from individuals group by island"
+    click.echo(f'      atoll query {shown} "{sql}"')
     click.echo(f"      atoll export {shown} --best 3 --format glb,png -o forms")

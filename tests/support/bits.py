@@ -21,7 +21,7 @@ from genome.settings import Settings, near
 from growth.protocol import Clock
 from islands.diversity import hamming_diversity
 from islands.individual import Evaluation
-from islands.kinds.protocol import Keep
+from islands.kinds.protocol import Facts, Keep
 from islands.spec import IslandSpec
 
 Bits = tuple[int, ...]
@@ -95,7 +95,7 @@ class BitsBiology:
     def diversity(self, genotypes: Sequence[Bits]) -> float | None:
         return hamming_diversity(genotypes)
 
-    def write_forms(self, genotype: Bits, stem: Path, formats: Sequence[str]) -> list[Path]:
+    def write_forms(self, genotype: Bits, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
         if unknown := [suffix for suffix in formats if suffix != "txt"]:
             raise InputError("--format", "txt", unknown[0])
         path = stem.with_name(f"{stem.name}.txt")

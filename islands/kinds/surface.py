@@ -1,0 +1,250 @@
+"""The island kind of HEMLS surfaces: genomes that a grammar maps to rules, grown and scored (Hemberg 2006)."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Annotated, Any, ClassVar, Final, final
+
+import numpy as np
+from pydantic import BeforeValidator, JsonValue
+
+from evaluators.fitness import Goal, total
+from evaluators.registry import CRITERIA, resolve
+from evaluators.score import score
+from genome.errors import InputError
+from genome.genr8 import Genr8Genome, Mapped
+from genome.integers import Genes, decode, encode, random_genes
+from genome.settings import Settings, describe
+from genome.variation import crossover, mutate
+from growth.environment import Environment, environment_from, load_environment
+from growth.hemls import SurfaceGrowth, grow, parse_system
+from growth.protocol import Clock, Failure
+from growth.surface import Surface
+from islands.diversity import hamming_diversity
+from islands.individual import Evaluation
+from islands.kinds.protocol import Facts, Keep
+from islands.spec import IslandSpec
+
+MESHES: Final = ("glb", "obj", "ply", "stl")
+FORMATS: Final = (*MESHES, "png", "hemls")
+USUAL: Final = ("glb", "hemls")
+REMEMBERED: Final = 4096
+
+
+def _file_or_keys(value: object) -> object:
+    if value is None or isinstance(value, (str, dict)):
+        return value
+    raise InputError("", "an environment file's name, or an environment's keys", describe(value))
+
+
+class SurfaceIslandGrowth(SurfaceGrowth):
+    """Settings of growth on an island: those of the engine, and where the surfaces grow.
+
+    ``environment`` is a file's name, relative to the experiment, or the environment itself; empty space without.
+    """
+
+    environment: Annotated[str | dict[str, JsonValue] | None, BeforeValidator(_file_or_keys)] = None
+
+
+@final
+class SurfaceBiology:
+    """Breeds and scores surfaces; see :class:`islands.kinds.protocol.Biology`.
+
+    Parameters
+    ----------
+    spec
+        The island's settings.
+    clock
+        For the ``*_ms`` columns and the safety net behind the growth's budget.
+    """
+
+    def __init__(self, spec: IslandSpec, clock: Clock) -> None:
+        self._genome: Final = Genr8Genome.model_validate(dict(spec.genome))
+        self._growth: Final = SurfaceIslandGrowth.model_validate(dict(spec.growth))
+        self._clock: Final = clock
+        self._mapper: Final = _located(spec, "genome", "grammar", lambda: self._genome.mapper(Path(spec.base)))
+        self._environment: Final = environment_of(spec)
+        self._goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in spec.fitness.items()}
+        names = dict.fromkeys([*CRITERIA, *self._goals])
+        self._criteria: Final = {name: resolve(name, spec.where("fitness", name)) for name in names}
+        self._reads: Final = lru_cache(maxsize=REMEMBERED)(self._genes_read)
+        self.scoring: Final = self._scoring_key()
+        self.seconds: Final = self._growth.max_seconds
+
+    def random(self, rng: np.random.Generator) -> Genes:
+        """Draw a genome."""
+        return random_genes(rng, self._genome.length, self._genome.gene_ceiling)
+
+    def crossover(self, first: Genes, second: Genes, rng: np.random.Generator) -> tuple[Genes, Genes]:
+        """Cross two genomes at a gene that both mappings read."""
+        read = [count for count in (self._reads(first), self._reads(second)) if count is not None]
+        return crossover(first, second, rng, self._genome.crossover, within=min(read, default=None))
+
+    def mutate(self, genotype: Genes, rng: np.random.Generator) -> Genes:
+        """Mutate a genome; one gene at least that the mapping read comes out different."""
+        rate, ceiling = self._genome.gene_mutation, self._genome.gene_ceiling
+        return mutate(genotype, rng, rate, ceiling, within=self._reads(genotype))
+
+    def encode(self, genotype: Genes) -> str:
+        """Write a genome as a JSON list."""
+        return encode(genotype)
+
+    def decode(self, text: str) -> Genes:
+        """Read a genome."""
+        return decode(text)
+
+    def diversity(self, genotypes: Sequence[Genes]) -> float | None:
+        """Give the mean pairwise Hamming distance."""
+        return hamming_diversity(genotypes)
+
+    def evaluate(self, genotype: Genes) -> Evaluation:
+        """Map, grow and score a genome by all of Genr8's criteria, goals or not."""
+        started = self._clock()
+        text, repaired, surface = self._grown(genotype)
+        del text
+        grown = self._clock()
+        notes: list[tuple[str, dict[str, object]]] = []
+        if repaired:
+            notes.append(("repair", {"labels": list(repaired)}))
+        if isinstance(surface, Failure):
+            if surface.reason == "clock":
+                notes.append(("clock", {"detail": surface.detail}))
+            return Evaluation(None, (), str(surface), (grown - started) * 1e3, 0.0, tuple(notes))
+        scores = score(surface, self._environment, self._criteria)
+        growth_ms, evaluation_ms = (grown - started) * 1e3, (self._clock() - grown) * 1e3
+        if isinstance(scores, Failure):
+            return Evaluation(None, (), str(scores), growth_ms, evaluation_ms, tuple(notes))
+        fitness = total(scores, self._goals)
+        return Evaluation(fitness, tuple(sorted(scores.items())), "", growth_ms, evaluation_ms, tuple(notes))
+
+    def write_forms(self, genotype: Genes, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
+        """Write a form as mesh (glb, obj, ply, stl), picture (png), and rules (hemls)."""
+        for suffix in formats:
+            if suffix not in FORMATS:
+                raise InputError("--format", f"one of {', '.join(FORMATS)}", f"'{suffix}'")
+        text, _, surface = self._grown(genotype)
+        if text is None or isinstance(surface, Failure):
+            return []
+        files = []
+        for suffix in formats or USUAL:
+            path = stem.with_name(f"{stem.name}.{suffix}")
+            self._write(text, surface, path, suffix, facts)
+            files.append(path)
+        return files
+
+    def _write(self, text: str, surface: Surface, path: Path, suffix: str, facts: Facts) -> None:
+        if suffix == "hemls":
+            path.write_text(text, encoding="utf-8")
+        elif suffix == "png":
+            from growth.pictures import render, write_png
+
+            write_png(render(surface, self._environment), path)
+        else:
+            from growth.forms import write_form
+
+            write_form(surface, path, title=path.stem, extras=facts)
+
+    def _grown(self, genotype: Genes) -> tuple[str | None, tuple[int, ...], Surface | Failure]:
+        """Give the rules, the labels whose rules were repaired, and the surface or why there is none."""
+        mapped = self._mapper.map(genotype)
+        if not isinstance(mapped, Mapped):
+            return None, (), Failure("mapping", mapped.reason)
+        try:
+            system = parse_system(mapped.text, "genotype")
+        except InputError as error:
+            return mapped.text, mapped.repaired, Failure("rules", str(error))
+        surface = grow(system, self._growth, self._environment, self._clock)
+        return mapped.text, mapped.repaired, surface
+
+    def _genes_read(self, genotype: Genes) -> int | None:
+        mapped = self._mapper.map(genotype)
+        return mapped.genes_read if isinstance(mapped, Mapped) else None
+
+    def _scoring_key(self) -> str:
+        """Hash all that a fitness depends on besides the genotype."""
+        growth = self._growth.model_dump(mode="json", exclude={"environment"})
+        goals = {name: goal.model_dump(mode="json") for name, goal in sorted(self._goals.items())}
+        # The grammar maps the genotype, so it is a part of how an island scores, though one species has one.
+        mapping = self._genome.model_dump(mode="json", exclude={"length", "crossover", "gene_mutation"})
+        meaning = [growth, self._environment.digest, goals, sorted(self._criteria), mapping]
+        return hashlib.sha256(json.dumps(meaning, sort_keys=True, allow_nan=False).encode()).hexdigest()
+
+
+def environment_of(spec: IslandSpec) -> Environment:
+    """Make the environment that an island's ``growth.environment`` names or holds.
+
+    Raises
+    ------
+    InputError
+        When it, or a mesh that it names, is not right.
+    """
+    given = spec.growth.get("environment")
+    if given is None:
+        return Environment.empty()
+    if isinstance(given, str):
+        path = Path(spec.base) / given
+        if not path.is_file():
+            where, got = spec.where("growth", "environment"), f"'{given}', which is not there"
+            raise InputError(where, "an environment file", got, f"it is looked for in {spec.base}")
+        return load_environment(path)
+    prefix = ("islands", spec.group, "growth", "environment")
+    return environment_from(given, spec.source, Path(spec.base), prefix)
+
+
+@final
+class SurfaceKind:
+    """The kind ``surface``."""
+
+    name: ClassVar[str] = "surface"
+    genome: ClassVar[type[Settings]] = Genr8Genome
+    growth: ClassVar[type[Settings]] = SurfaceIslandGrowth
+
+    def build(self, spec: IslandSpec, clock: Clock) -> SurfaceBiology:
+        """Load the grammar, the environment and the criteria."""
+        return SurfaceBiology(spec, clock)
+
+    def keep_files(self, spec: IslandSpec, keep: Keep) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
+        """Keep the grammar's file, the environment's, and the meshes that it names."""
+        genome, growth = dict(spec.genome), dict(spec.growth)
+        grammar = str(genome["grammar"])
+        if "/" in grammar or grammar.endswith(".bnf"):
+            path = Path(spec.base) / grammar
+            genome["grammar"] = keep("grammars", path.name, path.read_bytes())
+        if growth.get("environment") is not None:
+            growth["environment"] = _kept_environment(spec, growth["environment"], keep)
+        return genome, growth
+
+
+def _kept_environment(spec: IslandSpec, given: str | Mapping[str, Any], keep: Keep) -> str | dict[str, Any]:
+    """Keep an environment: a file without meshes as it is, any other with the meshes' copies in place of them."""
+    environment = environment_of(spec)
+    settings: dict[str, Any] = json.loads(json.dumps(environment.settings))
+    copies = {name: keep("environment", path.name, path.read_bytes()) for name, path in environment.mesh_files}
+    for boundary in settings["boundaries"]:
+        if boundary.get("mesh") is not None:
+            boundary["mesh"] = copies[boundary["mesh"]]
+    if not isinstance(given, str):
+        return settings
+    name = Path(given).name
+    if not copies:
+        return keep("environment", name, (Path(spec.base) / given).read_bytes())
+    # Paths in an environment's file are relative to that file, which lies beside its meshes.
+    for boundary in settings["boundaries"]:
+        if boundary.get("mesh") is not None:
+            boundary["mesh"] = Path(boundary["mesh"]).name
+    # JSON is YAML, and needs no writer here.
+    return keep("environment", name, (json.dumps(settings, indent=1) + "\n").encode())
+
+
+def _located(spec: IslandSpec, section: str, key: str, make: Any) -> Any:  # noqa: ANN401 - whatever is made
+    """Make something, and name the experiment's key in an error that names none."""
+    try:
+        return make()
+    except InputError as error:
+        if error.where != key:
+            raise
+        raise InputError(spec.where(section, key), error.expected, error.got, error.remedy) from None

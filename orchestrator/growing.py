@@ -1,0 +1,118 @@
+"""Growing one form from a rule file: an engine for each suffix. A new engine is one function and one line."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from genome.errors import InputError
+from genome.settings import describe, validated
+from growth.surface import Surface
+from orchestrator.checking import read_text, refuse_later
+from orchestrator.overrides import parse_override
+
+FORMS: Final = (".glb", ".obj", ".ply", ".stl", ".png")
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What ``atoll grow`` was asked for."""
+
+    file: Path
+    steps: int | None
+    until: float | None
+    environment: Path | None
+    overrides: Sequence[str]
+    seed: int
+    output: Path | None
+
+
+Engine = Callable[[Request], "dict[str, Any] | str"]
+"""Gives the keys of the JSON, or the message of a growth that failed."""
+
+
+def engine_for(path: Path) -> Engine:
+    """Give the engine that grows a file.
+
+    Raises
+    ------
+    InputError
+        When its suffix belongs to none that is built.
+    """
+    refuse_later(path)
+    if path.suffix not in ENGINES:
+        raise InputError(str(path), f"a rule file ({', '.join(ENGINES)})", f"'{path.suffix or path.name}'")
+    return ENGINES[path.suffix]
+
+
+def grow_surface(request: Request) -> dict[str, Any] | str:
+    """Grow a HEMLS surface, measure it by Genr8's criteria, and write it if asked.
+
+    Raises
+    ------
+    InputError
+        When the rules, the environment or a setting is not right.
+    """
+    from evaluators.registry import CRITERIA
+    from evaluators.score import score
+    from growth.environment import Environment, load_environment
+    from growth.hemls import SurfaceGrowth, grow, parse_system
+    from growth.protocol import Failure
+
+    if request.until is not None:
+        raise InputError("--time", "a timed system (.tl)", str(request.file), "use --steps")
+    settings = validated(SurfaceGrowth, _settings(request), "--set")
+    _check_output(request.output)
+    system = parse_system(read_text(request.file, "a rule file"), str(request.file))
+    environment = Environment.empty() if request.environment is None else load_environment(request.environment)
+    surface = grow(system, settings, environment, time.perf_counter)
+    if isinstance(surface, Failure):
+        return f"{request.file} did not grow: {surface}"
+    scores = score(surface, environment, CRITERIA)
+    if isinstance(scores, Failure):
+        return f"{request.file} could not be measured: {scores}"
+    vertices, edges, faces = surface.counts
+    bounds = [surface.vertices.min(axis=0).tolist(), surface.vertices.max(axis=0).tolist()]
+    if request.output is not None:
+        _write(surface, environment, request.output)
+    grown = {"vertices": vertices, "edges": edges, "faces": faces, **scores, "bounds": bounds}
+    return grown if request.output is None else {**grown, "file": str(request.output)}
+
+
+def _settings(request: Request) -> dict[str, Any]:
+    given: dict[str, Any] = {}
+    for text in request.overrides:
+        path, value = parse_override(text)
+        if len(path) != 1:
+            raise InputError(f"--set {text}", "key=value", describe(text), "for example --set scale=1.5")
+        given[path[0]] = value
+    if request.steps is not None:
+        given["steps"] = request.steps
+    return given
+
+
+def _check_output(output: Path | None) -> None:
+    if output is None:
+        return
+    if output.suffix.lower() not in FORMS:
+        raise InputError("-o", f"a file that ends in {', '.join(FORMS)}", f"'{output}'")
+    if not output.parent.is_dir():
+        raise InputError("-o", "a file in a folder that exists", f"'{output}'")
+
+
+def _write(surface: Surface, environment: Any, output: Path) -> None:  # noqa: ANN401 - imported where it is used
+    if output.suffix.lower() == ".png":
+        from growth.pictures import render, write_png
+
+        write_png(render(surface, environment), output)
+    else:
+        from growth.forms import write_form
+
+        write_form(surface, output)
+
+
+ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface}
+"""The engines by the suffix of the files that they grow."""

@@ -1,0 +1,105 @@
+"""Individuals of a log, brought back to life with the settings of the island that bred them."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from genome.errors import InputError
+from islands.individual import Evaluation, Scores
+from islands.kinds.protocol import Biology
+from islands.kinds.registry import resolve_kind
+from islands.spec import IslandSpec
+from orchestrator.folder import RunFolder
+from orchestrator.loading import load_experiment
+from orchestrator.plan import make_plan
+from orchestrator.query import ask
+
+COLUMNS = "id, island, genotype, fitness, scores, error"
+
+
+@dataclass(frozen=True, slots=True)
+class Logged:
+    """An individual as the log has it."""
+
+    id: int
+    island: str
+    genotype: str
+    fitness: float | None
+    scores: Scores
+    error: str
+
+
+def by_id(folder: RunFolder, ids: Sequence[int]) -> list[Logged]:
+    """Find individuals by their ids, in the order given.
+
+    Raises
+    ------
+    InputError
+        For an id that the log does not have.
+    """
+    listed = ", ".join(str(int(identity)) for identity in ids)
+    found = {row.id: row for row in _logged(folder, f"where id in ({listed})")} if ids else {}
+    for identity in ids:
+        if identity not in found:
+            remedy = 'find one with: atoll query RUN "select id, fitness from individuals order by fitness desc"'
+            raise InputError("--id", "an individual of the log", str(identity), remedy)
+    return [found[identity] for identity in ids]
+
+
+def best(folder: RunFolder, count: int) -> list[Logged]:
+    """Find the best individuals, best first; of equal ones the older."""
+    return _logged(folder, f"where fitness is not null order by fitness desc, id limit {int(count)}")
+
+
+def _logged(folder: RunFolder, clause: str) -> list[Logged]:
+    answer = ask(folder.log, f"select {COLUMNS} from individuals {clause}")  # noqa: S608 - numbers alone go in
+    return [
+        Logged(identity, island, genotype, fitness, tuple(sorted((scores or {}).items())), error)
+        for identity, island, genotype, fitness, scores, error in answer.rows
+    ]
+
+
+class Nursery:
+    """Makes the biology of each island of a run, once."""
+
+    def __init__(self, folder: RunFolder) -> None:
+        loaded = load_experiment(folder.experiment)
+        self._run = folder.name
+        self._specs: dict[str, IslandSpec] = {spec.name: spec for spec in make_plan(loaded).islands}
+        self._made: dict[str, Biology[Any]] = {}
+
+    def biology(self, island: str) -> Biology[Any]:
+        """Give the biology of an island by name."""
+        spec = self._specs[island]
+        if spec.group not in self._made:
+            kind = resolve_kind(spec.kind, spec.where("kind"))
+            self._made[spec.group] = kind.build(spec, time.perf_counter)
+        return self._made[spec.group]
+
+    def score(self, logged: Logged) -> Evaluation:
+        """Grow and score an individual again."""
+        biology = self.biology(logged.island)
+        return biology.evaluate(biology.decode(logged.genotype))
+
+    def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
+        """Write an individual's form as ISLAND-ID.SUFFIX."""
+        biology = self.biology(logged.island)
+        stem = folder / f"{logged.island}-{logged.id}"
+        facts: dict[str, str | float | bool] = {"run": self._run, "island": logged.island, "id": str(logged.id)}
+        if logged.fitness is not None:
+            facts["fitness"] = logged.fitness
+        return biology.write_forms(biology.decode(logged.genotype), stem, formats, facts)
+
+
+def same(logged: Logged, scored: Evaluation) -> bool:
+    """Tell whether a scoring gave bit for bit what the log has.
+
+    A growth that the clock broke off is replayed as such: how far it came is no property of the individual.
+    """
+    if logged.error.startswith("clock:"):
+        return True
+    return (logged.fitness, logged.scores, logged.error) == (scored.fitness, scored.scores, scored.error)

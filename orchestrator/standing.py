@@ -1,0 +1,72 @@
+"""How a run stands, read from its manifest and log: also of one that still goes on, or was killed."""
+
+from __future__ import annotations
+
+import os
+import platform
+from typing import Any
+
+from orchestrator.folder import RunFolder
+from orchestrator.query import as_rows, ask
+
+ISLANDS = """
+    with latest as (
+        select island, any_value(species) as species, max(generation) as generation,
+               sum(evaluations)::bigint as evaluations, arg_max(best, generation) as best,
+               arg_max(mean, generation) as mean, arg_max(invalid, generation) as invalid,
+               sum(wall_ms) as wall_ms
+        from generations group by island
+    ), joined as (
+        select island, count(*) as migrants from migrations where accepted group by island
+    ), first_bred as (
+        select island, min(id) as first_id from individuals group by island
+    )
+    select l.island, l.species, l.generation, l.evaluations, l.best, l.mean, l.invalid,
+           coalesce(j.migrants, 0) as migrants, l.wall_ms
+    from latest l left join joined j using (island) left join first_bred f using (island)
+    order by f.first_id
+"""
+
+BEST = """
+    select island, id, fitness from individuals where fitness is not null
+    order by fitness desc, id limit 1
+"""
+
+
+def standing(folder: RunFolder) -> dict[str, Any]:
+    """Give a run's status, islands, best so far, and rates.
+
+    ``generations`` counts those that every island of the log has finished, ``evaluations`` all scorings in the log,
+    and ``evaluations_per_s`` compares these with the time that the islands spent on them, all islands together.
+    ``alive`` tells whether the process of a run that is marked as running is there; it is ``None`` on other machines.
+    """
+    manifest = folder.manifest()
+    islands = as_rows(ask(folder.log, ISLANDS))
+    best = as_rows(ask(folder.log, BEST))
+    evaluations = sum(int(row["evaluations"]) for row in islands)
+    busy = sum(float(row.pop("wall_ms")) for row in islands) / 1e3
+    return {
+        "run": folder.name,
+        "status": manifest.get("status"),
+        "alive": _alive(manifest),
+        "error": manifest.get("error", ""),
+        "started": manifest.get("started"),
+        "ended": manifest.get("ended"),
+        "generations": min((int(row["generation"]) for row in islands), default=0),
+        "evaluations": evaluations,
+        "evaluations_per_s": round(evaluations / busy, 3) if busy > 0 else None,
+        "best": best[0] if best else None,
+        "islands": islands,
+    }
+
+
+def _alive(manifest: dict[str, Any]) -> bool | None:
+    if manifest.get("status") != "running" or manifest.get("machine") != platform.node():
+        return None
+    try:
+        os.kill(int(manifest["process"]), 0)
+    except ProcessLookupError:
+        return False
+    except (KeyError, ValueError, TypeError, OSError):
+        return None
+    return True
