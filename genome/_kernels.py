@@ -10,21 +10,22 @@ from numba import njit
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
 
 LABEL, BOUND, CALL, CHOOSE, OPTION, TEST, REPEAT, JUMP, END, WRITE = range(10)
 """The operations; :mod:`genome.program` writes them. Those up to TEST read a gene."""
 
-DONE, OUT_OF_GENES, TOO_LONG = range(3)
+DONE, OUT_OF_GENES, TOO_LONG, NEGATIVE = range(4)
 """How an expansion ends."""
 
 
 @njit(cache=True)
-def roomy(array: Ints, size: int) -> Ints:
-    """Give the array itself, or a copy of at least twice its room where it holds fewer than ``size`` numbers."""
-    if size <= array.size:
-        return array
-    larger = np.empty(max(size, 2 * array.size), dtype=np.int64)
-    larger[: array.size] = array
+def roomy(stack: Ints, size: int) -> Ints:
+    """Give the stack itself, or a copy of twice its room where it holds fewer than ``size`` numbers."""
+    if size <= stack.size:
+        return stack
+    larger = np.empty(2 * max(size, stack.size), dtype=np.int64)
+    larger[: stack.size] = stack
     return larger
 
 
@@ -36,67 +37,96 @@ def chosen(choices: Ints, targets: Ints, row: int, gene: int, short: bool) -> in
 
 
 @njit(cache=True)
+def put(out: Bytes, size: int, letters: Bytes, first: int, end: int, number: int) -> tuple[Bytes, int]:
+    """Append letters and, where it is not negative, a number; the buffer grows as needed."""
+    if size + end - first + 20 > out.size:
+        larger = np.empty(2 * (size + end - first + 20), dtype=np.uint8)
+        larger[:size] = out[:size]
+        out = larger
+    for i in range(first, end):
+        out[size] = letters[i]
+        size += 1
+    if number >= 0:
+        digits = 1
+        power = 10
+        while digits < 19 and number >= power:
+            digits += 1
+            power *= 10
+        for i in range(size + digits - 1, size - 1, -1):
+            out[i] = 48 + number % 10
+            number //= 10
+        size += digits
+    return out, size
+
+
+@njit(cache=True)
 def expand(  # noqa: C901 - one dispatch loop over ten operations
     code: Ints,
     choices: Ints,
     targets: Ints,
-    bound: int,
-    words: int,
+    letters: Bytes,
+    spans: Ints,
     genes: Ints,
     start: tuple[int, int, int, int],
-    limits: tuple[int, int, int],
-) -> tuple[int, int, int, Ints]:
+    limits: tuple[int, int, int, int],
+) -> tuple[int, int, int, int, Bytes]:
     """Expand one non-terminal.
 
     Parameters
     ----------
-    code, choices, targets, bound
+    code, choices, targets, letters, spans
         The compiled grammar, see :class:`genome.program.Program`.
-    words
-        The number of terminals, so that label i is token ``words + i``.
     genes
-        (g,) int64, at least one, each 0 or more; read again from the first after the last.
+        (g,) int64, at least one; read again from the first after the last.
     start
         The row in ``choices`` of the non-terminal, the depth that it stands at, genes read and labels in use before.
     limits
-        The greatest depth of the tree, the most genes to read (those before included), the most tokens to write.
+        The number of bound labels, the greatest depth of the tree, the most genes to read (those before included), the
+        most tokens to write.
 
     Returns
     -------
     status : int
-        DONE, OUT_OF_GENES or TOO_LONG.
-    reads, labels : int
-        Genes read and labels in use after.
-    tokens : (t,) int64
-        What was written.
+        DONE, OUT_OF_GENES, TOO_LONG, or NEGATIVE where some gene is.
+    reads, labels, written : int
+        Genes read and labels in use after; tokens written.
+    text : (t,) uint8
+        What was written, a separator before each token.
     """
     argument, depth, reads, labels = start
-    max_depth, max_reads, max_tokens = limits
-    out = np.empty(256, dtype=np.int64)
+    bound, max_depth, max_reads, max_tokens = limits
+    stem = spans.shape[0] - 1
+    out = np.empty(1024, dtype=np.uint8)
     # A call opens a frame: return address, the caller's frame, bound labels (-1 until read). The counter of a
     # repetition lies on top of the frame that it belongs to.
     stack = np.empty(256, dtype=np.int64)
-    written = top = base = gene = 0
+    size = written = top = base = gene = 0
     operation, pc = CALL, -1
     depth -= 1
+    if genes.min() < 0:
+        return NEGATIVE, reads, labels, written, out[:0]
     while True:
-        token = -1
+        number = -1
         if operation == BOUND:
-            token = stack[base + 2 + argument]
-        if operation <= TEST and token < 0:
+            number = stack[base + 2 + argument]
+        if operation <= TEST and number < 0:
             if reads == max_reads:
-                return OUT_OF_GENES, reads, labels, out[:written]
+                return OUT_OF_GENES, reads, labels, written, out[:0]
             gene = genes[reads % genes.size]
             reads += 1
-        if operation == WRITE:
-            token = argument
-        elif operation <= BOUND:
-            if token < 0:
-                token = gene % (labels + 1)
-                labels = max(labels, token + 1)
-            if operation == BOUND:
-                stack[base + 2 + argument] = token
-            token += words
+        if operation == WRITE or operation <= BOUND:
+            if written == max_tokens:
+                return TOO_LONG, reads, labels, written, out[:0]
+            written += 1
+            word = argument
+            if operation <= BOUND:
+                word = stem
+                if number < 0:
+                    number = gene % (labels + 1)
+                    labels = max(labels, number + 1)
+                if operation == BOUND:
+                    stack[base + 2 + argument] = number
+            out, size = put(out, size, letters, spans[word, 0], spans[word, 1], number)
         elif operation == CALL:
             stack = roomy(stack, top + 2 + bound)
             stack[top] = pc
@@ -128,13 +158,130 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
             base = stack[base + 1]
             depth -= 1
             if top == 0:
-                return DONE, reads, labels, out[:written]
-        if token >= 0:
-            if written == max_tokens:
-                return TOO_LONG, reads, labels, out[:written]
-            out = roomy(out, written + 1)
-            out[written] = token
-            written += 1
+                return DONE, reads, labels, written, out[:size]
         operation = code[pc, 0]
         argument = code[pc, 1]
         pc += 1
+
+
+@njit(cache=True)
+def ruled_labels(text: Bytes, stem: Bytes, labels: int) -> NDArray[np.bool_]:
+    """Tell which labels some rule of a rule file rewrites.
+
+    Parameters
+    ----------
+    text
+        (t,) uint8, tokens with blanks between them, ``;`` ending each line.
+    stem
+        (s,) uint8, what a label begins with.
+    labels
+        How many labels there are.
+
+    Returns
+    -------
+    (labels,) bool
+        Those before an arrow on a line, contexts left out: in a list each, between ``<`` and ``>`` the middle one.
+    """
+    ruled = np.zeros(labels, dtype=np.bool_)
+    heads = np.empty(text.size // 2 + 1, dtype=np.int64)
+    found = 0
+    state = 0  # 1 in a context on the right, 2 behind the arrow
+    end = -1
+    while end < text.size:
+        first = end + 1
+        end = first
+        while end < text.size and text[end] != 32:
+            end += 1
+        length = end - first
+        one = text[first] if length == 1 else 0
+        if one == 59:  # ;
+            found, state = 0, 0
+        elif state == 2:
+            continue
+        elif one == 60:  # <
+            found, state = 0, 0
+        elif one == 62:  # >
+            state = 1
+        elif length == 2 and text[first] == 45 and text[first + 1] == 62:  # ->
+            for i in range(found):
+                ruled[heads[i]] = True
+            state = 2
+        elif state == 0 and length > stem.size and (text[first : first + stem.size] == stem).all():
+            label = 0
+            for i in range(first + stem.size, end):
+                digit = int(text[i]) - 48
+                label = label * 10 + digit if 0 <= digit <= 9 and label < labels else labels
+            if label < labels:
+                heads[found] = label
+                found += 1
+    return ruled
+
+
+@njit(cache=True)
+def expand_with_repair(
+    code: Ints,
+    choices: Ints,
+    targets: Ints,
+    letters: Bytes,
+    spans: Ints,
+    genes: Ints,
+    start: tuple[int, int, int, int],
+    limits: tuple[int, int, int, int],
+    repair: tuple[int, int],
+) -> tuple[int, int, Bytes, Bytes, Ints]:
+    """Expand the start symbol, and then a rule for each label that has none.
+
+    Parameters
+    ----------
+    code, choices, targets, letters, spans, genes, start, limits
+        As for :func:`expand`; the separator is one blank.
+    repair
+        The row in ``choices`` of the non-terminal that repair expands, and the depth that it stands at.
+
+    Returns
+    -------
+    status, reads : int
+        As from :func:`expand`.
+    text : (t,) uint8
+        The sentence.
+    rules : (r,) uint8
+        The rules that were added, a ``;`` before each.
+    repaired : (n,) int64
+        Their labels; where the status is not DONE, the last is the one that was being repaired, if any.
+    """
+    status, reads, labels, written, text = expand(code, choices, targets, letters, spans, genes, start, limits)
+    rules = np.empty(256, dtype=np.uint8)
+    repaired = np.empty(16, dtype=np.int64)
+    size = count = 0
+    if status != DONE:
+        return status, reads, text, rules[:0], repaired[:0]
+    symbol, depth = repair
+    bound, max_depth, max_reads, max_tokens = limits
+    stem = spans.shape[0] - 1
+    ruled = ruled_labels(text[1:], letters[spans[stem, 0] + 1 : spans[stem, 1]], labels)
+    signs = np.array([59, 32, 45, 62], dtype=np.uint8)  # ; ->
+    label = 0
+    while label < labels:  # a repair may bring new labels, which come after all the others
+        if label >= ruled.size or not ruled[label]:
+            repaired = roomy(repaired, count + 1)
+            repaired[count] = label
+            count += 1
+            status, reads, labels, tokens, successor = expand(
+                code,
+                choices,
+                targets,
+                letters,
+                spans,
+                genes,
+                (symbol, depth, reads, labels),
+                (bound, max_depth, max_reads, max_tokens - written),
+            )
+            if status != DONE:
+                break
+            written += tokens
+            rules, size = put(rules, size, signs, 0, 1, -1)
+            rules, size = put(rules, size, letters, spans[stem, 0], spans[stem, 1], label)
+            rules, size = put(rules, size, signs, 1, 4, -1)
+            rules, size = put(rules, size, successor, 0, successor.size, -1)
+        label += 1
+    return status, reads, text, rules[:size], repaired[:count]

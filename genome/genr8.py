@@ -6,7 +6,6 @@ grammar that is shipped, the profile ``paper``, and the repair that gives every 
 
 from __future__ import annotations
 
-import re
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -17,15 +16,15 @@ from typing import Literal
 
 from pydantic import Field
 
+from genome import _kernels
 from genome.bnf import parse_bnf
 from genome.errors import InputError
 from genome.grammar import Grammar, Item, Option, Repeat, Terminal, non_terminals, terminals
-from genome.mapping import Mapper, Unmapped, gene_array
-from genome.program import Labels
+from genome.mapping import NO_GENES, Mapper, Unmapped, gene_array, unmapped
+from genome.program import Labels, compile_grammar
 from genome.settings import Settings, near
 
 Profile = Literal["default", "paper"]
-_LABEL = re.compile(r"Edge(\d+)")
 SUCCESSOR = "Successor"
 """The non-terminal that repair expands."""
 
@@ -146,9 +145,13 @@ class Genr8Mapper:
                 "none",
                 "name it so, or add it",
             )
-        self._successor_depth = depths.get(SUCCESSOR, 1)
+        program = compile_grammar(of_profile(grammar, profile), labels, " ")
+        self._arrays = (program.code, program.choices, program.targets, program.letters, program.spans)
+        self._start = (program.symbols[grammar.start], 0, 0, labels.first if labels else 0)
+        self._repair = (program.symbols.get(SUCCESSOR, 0), depths.get(SUCCESSOR, 1))
+        self._limits = (program.bound, max_depth)
+        self._wraps = wraps
         self._max_tokens = max_tokens
-        self._mapper = Mapper(of_profile(grammar, profile), labels, max_depth, wraps, max_tokens)
 
     def map(self, genes: Sequence[int]) -> Mapped | Unmapped:
         """Map a genome to a rule file's text.
@@ -162,43 +165,38 @@ class Genr8Mapper:
         -------
         Mapped or Unmapped
             Unmapped where the genes ran out, in the sentence or in its repair, or the text grew too long.
+
+        Raises
+        ------
+        InputError
+            For genes that are not integers from 0 to 2**63 - 1.
         """
-        array = gene_array(genes)
-        state = self._mapper.derive(array)
-        if isinstance(state, Unmapped):
-            return state
-        lines = [line.strip() for line in self._mapper.text(state.tokens).split(";")]
-        ruled = _ruled(lines)
-        written = len(state.tokens)
-        repairs: list[str] = []
-        repaired: list[int] = []
-        label = 0
-        while label < state.labels:  # a repair may bring new labels, which come after all the others
-            if label not in ruled:
-                found = self._mapper.derive(array, SUCCESSOR, self._successor_depth, state)
-                if isinstance(found, Unmapped):
-                    return Unmapped(f"{found.reason}, while repairing Edge{label}")
-                written += len(found.tokens)
-                if written > self._max_tokens:
-                    return Unmapped(f"the text grew past {self._max_tokens} tokens, while repairing Edge{label}")
-                repairs.append(f"Edge{label} -> {self._mapper.text(found.tokens)}")
-                repaired.append(label)
-                state = found
-            label += 1
+        row = gene_array(genes)
+        if not row.size:
+            return NO_GENES
+        limits = (*self._limits, row.size * (self._wraps + 1), self._max_tokens)
+        status, reads, text, rules, labels = _kernels.expand_with_repair(
+            *self._arrays, row, self._start, limits, self._repair
+        )
+        repaired = tuple(labels.tolist())
+        if status != _kernels.DONE:
+            reason = unmapped(status, reads, row.size, self._wraps, self._max_tokens).reason
+            return Unmapped(f"{reason}, while repairing Edge{repaired[-1]}" if repaired else reason)
+        lines = _lines(text.tobytes())
         place = max((i for i, line in enumerate(lines) if "->" in line), default=0) + 1
-        lines[place:place] = repairs
-        return Mapped("\n".join(line for line in lines if line) + "\n", state.genes_read, tuple(repaired))
+        lines[place:place] = _lines(rules.tobytes())
+        return Mapped("\n".join(lines) + "\n", reads, repaired)
 
 
-def _ruled(lines: list[str]) -> set[int]:
-    """Give the labels that some rule rewrites: its predecessor without the context, or each of a list."""
-    ruled: set[int] = set()
-    for line in lines:
-        predecessor, arrow, _ = line.partition("->")
-        if arrow:
-            main = predecessor.split("<")[-1].split(">")[0]
-            ruled.update(int(found[1]) for word in main.split() if (found := _LABEL.fullmatch(word)))
-    return ruled
+def _lines(text: bytes) -> list[str]:
+    return [line.strip() for line in text.decode().split(";") if line.strip()]
+
+
+def compile_kernels() -> None:
+    """Compile the kernels into Numba's cache, so that the first genome of a run need not wait for it."""
+    grammar = load_grammar("genr8", Path())
+    Genr8Mapper(grammar).map((0,))
+    Mapper(grammar).map((0,))
 
 
 def _has_labels(grammar: Grammar, labels: Labels) -> bool:

@@ -7,6 +7,7 @@ whether to go on; labels are read as they are written.
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -28,21 +29,27 @@ class Unmapped:
     reason: str
 
 
+NO_GENES = Unmapped("the genome has no genes")
+
+
 @dataclass(frozen=True, slots=True)
 class Derivation:
     """A sentence, and where its reading stopped.
 
     Attributes
     ----------
+    text
+        What was written, its tokens joined by the separator.
     tokens
-        What was written, as numbers: below ``len(Mapper.words)`` a terminal, above it a label.
+        How many they are.
     genes_read
         How many genes were read, those read again included.
     labels
         How many labels are in use.
     """
 
-    tokens: list[int]
+    text: str
+    tokens: int
     genes_read: int
     labels: int
 
@@ -77,19 +84,12 @@ class Mapper:
         separator: str = " ",
     ) -> None:
         self.grammar = grammar
-        self._program = compile_grammar(grammar, labels)
-        self._stem = labels.name if labels else ""
+        self._program = compile_grammar(grammar, labels, separator)
         self._first = labels.first if labels else 0
         self._depth = UNLIMITED if max_depth is None else max_depth
         self._wraps = wraps
         self._max_tokens = max_tokens
-        self._separator = separator
-        self._words = [*self._program.words, *(f"{self._stem}{i}" for i in range(64))]
-
-    @property
-    def words(self) -> tuple[str, ...]:
-        """The terminals of the grammar, labels left out; a token is a position in them."""
-        return self._program.words
+        self._separator = len(separator.encode())
 
     def map(self, genes: Sequence[int]) -> str | Unmapped:
         """Map a genome to a text.
@@ -105,7 +105,7 @@ class Mapper:
             The sentence, its tokens joined by the separator.
         """
         found = self.derive(genes)
-        return found if isinstance(found, Unmapped) else self.text(found.tokens)
+        return found if isinstance(found, Unmapped) else found.text
 
     def derive(
         self,
@@ -132,9 +132,9 @@ class Mapper:
         Derivation or Unmapped
             Unmapped where the genome has no genes, or they ran out, or the sentence grew too long.
         """
-        array = genes if isinstance(genes, np.ndarray) else gene_array(genes)
-        if not array.size:
-            return Unmapped("the genome has no genes")
+        row = genes if isinstance(genes, np.ndarray) else gene_array(genes)
+        if not row.size:
+            return NO_GENES
         program = self._program
         start = (
             program.symbols[self.grammar.start if symbol is None else symbol],
@@ -142,37 +142,31 @@ class Mapper:
             after.genes_read if after else 0,
             after.labels if after else self._first,
         )
-        limits = (self._depth, array.size * (self._wraps + 1), self._max_tokens)
-        status, reads, labels, tokens = _kernels.expand(
-            program.code, program.choices, program.targets, program.bound, len(program.words), array, start, limits
+        limits = (program.bound, self._depth, row.size * (self._wraps + 1), self._max_tokens)
+        status, reads, labels, tokens, letters = _kernels.expand(
+            program.code, program.choices, program.targets, program.letters, program.spans, row, start, limits
         )
         if status == _kernels.DONE:
-            return Derivation(tokens.tolist(), reads, labels)
-        if status == _kernels.OUT_OF_GENES:
-            return Unmapped(f"the genome ran out after {reads} genes ({self._wraps} wraps of {array.size})")
-        return Unmapped(f"the text grew past {self._max_tokens} tokens")
+            return Derivation(letters.tobytes()[self._separator :].decode(), tokens, reads, labels)
+        return unmapped(status, reads, row.size, self._wraps, self._max_tokens)
 
-    def text(self, tokens: list[int]) -> str:
-        """Write tokens as text."""
-        words = self._words
-        highest = max(tokens, default=0)
-        if highest >= len(words):
-            words = [*words, *(f"{self._stem}{i - len(self.words)}" for i in range(len(words), highest + 1))]
-        return self._separator.join(map(words.__getitem__, tokens))
+
+def unmapped(status: int, reads: int, genes: int, wraps: int, max_tokens: int) -> Unmapped:
+    """Say why an expansion did not end; InputError where a gene is negative."""
+    if status == _kernels.OUT_OF_GENES:
+        return Unmapped(f"the genome ran out after {reads} genes ({wraps} wraps of {genes})")
+    if status == _kernels.TOO_LONG:
+        return Unmapped(f"the text grew past {max_tokens} tokens")
+    raise _bad_genes()
 
 
 def gene_array(genes: Sequence[int]) -> NDArray[np.int64]:
-    """Give genes as an (n,) int64 array; InputError where one is negative or too large."""
-    array = np.asarray(genes)
-    if not array.size:
-        return np.empty(0, dtype=np.int64)
-    if array.dtype.kind != "i" or array.ndim != 1 or array.min() < 0:
-        raise InputError("genome", "integers from 0 to 9223372036854775807", "something else", "give a list of them")
-    return array.astype(np.int64, copy=False)
+    """Give genes as an (n,) int64 array; InputError where one is no integer or too large."""
+    try:
+        return np.frombuffer(array("q", genes), dtype=np.int64)
+    except (OverflowError, TypeError):
+        raise _bad_genes() from None
 
 
-def compile_kernels() -> None:
-    """Compile the kernel into Numba's cache, so that the first genome of a run need not wait for it."""
-    from genome.bnf import parse_bnf
-
-    Mapper(parse_bnf("<A> ::= a", "warm-up")).map((0,))
+def _bad_genes() -> InputError:
+    return InputError("genome", "integers from 0 to 9223372036854775807", "something else", "give a list of them")

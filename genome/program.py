@@ -49,8 +49,10 @@ class Program:
         are left at the greatest depth. The first rows are the non-terminals, in the grammar's order.
     targets
         (t,) int64, addresses in ``code``.
-    words
-        The terminals; a token below ``len(words)`` is one of them, one above is a label.
+    letters
+        (l,) uint8, the terminals in UTF-8 one after the other, a separator before each, and last the labels' stem.
+    spans
+        (w + 1, 2) int64, where each begins and ends in ``letters``.
     symbols
         The row in ``choices`` of each non-terminal.
     bound
@@ -60,14 +62,15 @@ class Program:
     code: Ints
     choices: Ints
     targets: Ints
-    words: tuple[str, ...]
+    letters: NDArray[np.uint8]
+    spans: Ints
     symbols: dict[str, int]
     bound: int
 
 
-def compile_grammar(grammar: Grammar, labels: Labels | None) -> Program:
+def compile_grammar(grammar: Grammar, labels: Labels | None, separator: str) -> Program:
     """Compile a grammar; without ``labels`` every terminal is written as it is."""
-    return _Compiler(grammar, labels).program()
+    return _Compiler(grammar, labels).program(separator)
 
 
 class _Compiler:
@@ -82,7 +85,7 @@ class _Compiler:
         self.targets: list[int] = []
         self.words: dict[str, int] = {}
 
-    def program(self) -> Program:
+    def program(self, separator: str) -> Program:
         for name, alternatives in self.grammar.rules.items():
             addresses = []
             for sequence in alternatives:
@@ -90,11 +93,14 @@ class _Compiler:
                 self._sequence(sequence)
                 self._emit(END)
             self.choices[self.symbols[name]] = self._choice(alternatives, addresses)
+        written = [f"{separator}{word}".encode() for word in [*self.words, self.label or ""]]
+        ends = np.cumsum([0, *map(len, written)], dtype=np.int64)
         return Program(
             code=np.array(self.code, dtype=np.int64).reshape(-1, 2),
             choices=np.array(self.choices, dtype=np.int64).reshape(-1, 4),
             targets=np.array(self.targets, dtype=np.int64),
-            words=tuple(self.words),
+            letters=np.frombuffer(b"".join(written) or b" ", dtype=np.uint8),
+            spans=np.column_stack([ends[:-1], ends[1:]]),
             symbols=self.symbols,
             bound=len(self.bound),
         )

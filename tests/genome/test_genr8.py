@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reference_mapper import ReferenceMapper
+from reference_mapper import OutOfGenesError, ReferenceMapper, TooLongError
 
 from genome.bnf import parse_bnf
 from genome.errors import InputError
-from genome.genr8 import Genr8Genome, Genr8Mapper, Mapped, load_grammar, of_profile
+from genome.genr8 import Genr8Genome, Genr8Mapper, Mapped, compile_kernels, load_grammar, of_profile
 from genome.mapping import Derivation, Mapper, Unmapped
 from genome.program import Labels
 from genome.settings import validated
@@ -41,9 +41,9 @@ class TestTheWorkedExample:
 
     def test_the_next_gene_read_is_878(self):
         mapper = Mapper(of_profile(GENR8, "paper"), Labels())
-        after_the_start_symbol = Derivation([], genes_read=1, labels=2)
+        after_the_start_symbol = Derivation("", 0, genes_read=1, labels=2)
         found = mapper.derive(PAPER, "Axiom", 1, after_the_start_symbol)
-        assert mapper.text(found.tokens) == "Edge2 + Edge0 + Edge0 + Edge2"
+        assert found.text == "Edge2 + Edge0 + Edge0 + Edge2"
         assert PAPER[found.genes_read] == 878
         assert found.labels == 3
 
@@ -118,19 +118,37 @@ def test_after_repair_every_label_has_a_rule_and_repaired_rules_come_last_in_ord
     assert not before & set(last)
 
 
+@settings(max_examples=300, deadline=None)
+@given(GENOMES, st.sampled_from(["default", "paper"]), st.integers(1, 12), st.integers(0, 2), st.integers(20, 300))
+def test_mapping_and_repair_equal_plain_recursion(genes, profile, max_depth, wraps, max_tokens):
+    plain = ReferenceMapper(of_profile(GENR8, profile), Labels(), max_depth, wraps, max_tokens)
+    found = Genr8Mapper(GENR8, profile, max_depth, wraps, max_tokens).map(genes)
+    try:
+        text, repaired = plain.map_with_repair(genes, "Successor", 2)
+    except (OutOfGenesError, TooLongError):
+        assert isinstance(found, Unmapped)
+    else:
+        assert found == Mapped(text, plain.reads, tuple(repaired))
+
+
+TOKENS = ("Edge", "EdgeX", "'<'", "'>'", "->", "';'", "Edge7", "Edge99999999999999999999", "Edges", "+")
+
+
 @settings(max_examples=200, deadline=None)
-@given(GENOMES)
-def test_what_stands_before_repair_is_what_plain_recursion_writes(genes):
-    plain = ReferenceMapper(GENR8, Labels(), max_depth=8)
-    found = Genr8Mapper(GENR8, max_depth=8).map(genes)
-    if isinstance(found, Unmapped):
-        return
-    text = plain.map(genes)
-    lines = [line.strip() for line in text.split(";")]
-    kept = found.text.splitlines()
-    place = max(i for i, line in enumerate(lines) if "->" in line) + 1
-    assert kept[:place] + kept[place + len(found.repaired) :] == lines
-    assert found.genes_read >= plain.reads
+@given(
+    st.lists(st.sampled_from(TOKENS), min_size=1, max_size=14),
+    st.lists(st.integers(0, 20), min_size=8, max_size=60),
+)
+def test_any_sentence_is_repaired_as_plain_recursion_does(tokens, genes):
+    grammar = parse_bnf(f"<L> ::= {' '.join(tokens)}\n<Successor> ::= Edge | + Edge", "drawn")
+    plain = ReferenceMapper(grammar, Labels(), 8)
+    found = Genr8Mapper(grammar).map(genes)
+    try:
+        text, repaired = plain.map_with_repair(genes, "Successor", 1)
+    except OutOfGenesError:
+        assert isinstance(found, Unmapped)
+    else:
+        assert found == Mapped(text, plain.reads, tuple(repaired))
 
 
 class TestRepair:
@@ -220,6 +238,20 @@ class TestLoading:
             f"{tmp_path / 'own.bnf'}: expected a readable grammar file, got {got}; "
             "check the path, from the experiment's folder"
         )
+
+
+def test_the_kernels_can_be_compiled_ahead():
+    compile_kernels()
+
+
+@pytest.mark.parametrize("genes", [(0, -1), (2**63,), (0.5,), ("a",)])
+def test_genes_that_are_no_integers_of_zero_or_more_are_refused(genes):
+    with pytest.raises(InputError, match=r"^genome: expected integers from 0"):
+        Genr8Mapper(GENR8).map(genes)
+
+
+def test_an_empty_genome_maps_to_nothing():
+    assert Genr8Mapper(GENR8).map(()) == Unmapped("the genome has no genes")
 
 
 class TestSettings:

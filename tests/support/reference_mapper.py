@@ -95,3 +95,23 @@ class ReferenceMapper:
             self.write(f"{self.plan.name}{bound[text]}")
         else:
             self.write(text)
+
+    def map_with_repair(self, genes: Sequence[int], successor: str, depth: int) -> tuple[str, list[int]]:
+        """Genr8's text: a rule for each label without one, behind the last rule."""
+        lines = [line.strip() for line in self.map(genes).split(";") if line.strip()]
+        ruled: set[str] = set()
+        for line in lines:
+            predecessor, arrow, _ = line.partition("->")
+            if arrow:
+                ruled.update(predecessor.split("<")[-1].split(">")[0].split())
+        repaired = []
+        place = max((i for i, line in enumerate(lines) if "->" in line), default=0) + 1
+        label = 0
+        while label < self.labels:
+            if f"Edge{label}" not in ruled:
+                before = len(self.out)
+                self.expand(successor, depth)
+                lines.insert(place + len(repaired), f"Edge{label} -> {' '.join(self.out[before:])}")
+                repaired.append(label)
+            label += 1
+        return "\n".join(lines) + "\n", repaired
