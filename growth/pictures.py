@@ -1,0 +1,297 @@
+"""Pictures of forms, without a screen: soft sun, sky, shadow on a white ground, the polygons' edges as fine lines.
+
+Rays go through embree (embreex). Hard solid boundaries are shown as pale bodies; containers and soft boundaries as
+thin glass; a level hard plane as the ground; attractors and repellers as small balls.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from genome.errors import InputError
+from growth.bodies import Bodies, Colour, joined, solid_body, surface_body
+from growth.camera import Camera, looking_at
+from growth.environment import Environment
+from growth.environment.boundaries.protocol import Boundary
+from growth.forms import write_whole
+from growth.light import TURNS, Ground, Rays, lit, sun_towards
+from growth.surface import Surface
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+Floats = NDArray[np.float64]
+
+PAPER: Final[Colour] = (0.962, 0.958, 0.948)
+STONE: Final[Colour] = (0.86, 0.855, 0.84)
+GLASS: Final[Colour] = (0.46, 0.55, 0.63)
+PULL: Final[Colour] = (0.16, 0.35, 0.56)
+PUSH: Final[Colour] = (0.72, 0.16, 0.14)
+FRONTS: Final[tuple[Colour, ...]] = (
+    (0.83, 0.46, 0.33),
+    (0.27, 0.48, 0.58),
+    (0.80, 0.64, 0.28),
+    (0.45, 0.52, 0.34),
+    (0.55, 0.36, 0.50),
+)
+"""Colours of the surfaces, in turn; their backs are paler."""
+
+LINE: Final = 0.78
+LINE_WIDTH: Final = 1.15
+BAND: Final = 128
+MOST_BYTES: Final = 300_000
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _Stage:
+    bodies: Bodies
+    glass: Bodies
+    ground: Ground
+    camera: Camera
+    suns: Floats
+    rays: Rays
+    glass_rays: Rays
+
+
+def render(
+    surfaces: Surface | Sequence[Surface],
+    environment: Environment | None = None,
+    size: tuple[int, int] = (1000, 750),
+    *,
+    azimuth: float = -62.0,
+    elevation: float = 27.0,
+    samples: int = 2,
+) -> Image:
+    """Draw one or several surfaces in their environment.
+
+    Parameters
+    ----------
+    surfaces
+        What to draw; of several each has its own colour.
+    environment
+        Its boundaries and the points of its forces are drawn too.
+    size
+        Width and height in pixels.
+    azimuth, elevation
+        Where the viewer stands, in degrees; azimuth from x towards y.
+    samples
+        The picture is drawn this many times larger in both directions, then made smaller.
+
+    Returns
+    -------
+    An RGB image; the same input gives the same picture.
+
+    Raises
+    ------
+    InputError
+        When there is no face to draw, or a coordinate is not finite.
+    """
+    from PIL import Image
+
+    forms = [surfaces] if isinstance(surfaces, Surface) else list(surfaces)
+    stage = _staged(forms, environment, size, azimuth, elevation)
+    width, height = size
+    rows = [_band(stage, top, min(top + BAND, height), samples) for top in range(0, height, BAND)]
+    linear = np.concatenate(rows).reshape(height, samples, width, samples, 3).mean(axis=(1, 3))
+    return Image.fromarray((255.0 * _encoded(linear) + 0.5).astype(np.uint8), "RGB")
+
+
+def write_png(image: Image, path: Path) -> None:
+    """Write a picture as PNG, whole or not at all; in 256 colours where it would be large.
+
+    Raises
+    ------
+    InputError
+        When the file cannot be written.
+    """
+    from PIL.Image import Dither, Quantize
+
+    content = _png(image)
+    if len(content) > MOST_BYTES:
+        content = _png(image.quantize(256, method=Quantize.FASTOCTREE, dither=Dither.NONE))
+    write_whole(path, content)
+
+
+def _png(image: Image) -> bytes:
+    stream = io.BytesIO()
+    image.save(stream, format="PNG", optimize=True)
+    return stream.getvalue()
+
+
+def _staged(
+    forms: Sequence[Surface], environment: Environment | None, size: tuple[int, int], azimuth: float, elevation: float
+) -> _Stage:
+    parts = []
+    for index, form in enumerate(forms):
+        if not np.isfinite(form.vertices).all():
+            raise InputError("picture", "finite coordinates", "NaN or infinity")
+        front = FRONTS[index % len(FRONTS)]
+        back = (0.55 * front[0] + 0.4, 0.55 * front[1] + 0.4, 0.55 * front[2] + 0.38)
+        parts.append(surface_body(form, front, back, LINE))
+    shown = joined(parts)
+    if not len(shown):
+        raise InputError("picture", "a form with faces to draw", "none of three or more corners")
+    places = shown.corners.reshape(-1, 3)
+    extent = max(float(np.linalg.norm(np.ptp(places, axis=0))), 1e-9)
+    solids, glass, level = _surroundings(environment, places, extent)
+    bodies = joined([shown, *solids])
+    near = [part.corners.reshape(-1, 3) for part in [shown, *solids, *glass]]
+    near = [part for part in near if np.linalg.norm(np.ptp(np.concatenate([places, part]), axis=0)) < 4.0 * extent]
+    camera = looking_at(np.concatenate(near), size, azimuth, elevation)
+    suns = sun_towards(azimuth - 58.0, 48.0)
+    rays = Rays(bodies.corners)
+    if level is None:
+        level = float(bodies.corners[..., 2].min()) - 0.003 * extent
+    panes = joined(glass)
+    return _Stage(bodies, panes, Ground(rays, level, suns), camera, suns, rays, Rays(panes.corners))
+
+
+def _surroundings(
+    environment: Environment | None, places: Floats, extent: float
+) -> tuple[list[Bodies], list[Bodies], float | None]:
+    """Give the pale bodies, the glass ones, and the ground's level where a plane sets it."""
+    solids: list[Bodies] = []
+    glass: list[Bodies] = []
+    level: float | None = None
+    if environment is None:
+        return solids, glass, level
+    given = [*environment.settings.get("boundaries", ())]
+    given.sort(key=lambda item: bool(item["soft"]))  # as the environment lists them: the hard ones first
+    for item, boundary in zip(given, environment.boundaries, strict=True):
+        if item.get("shape") == "plane" and item["normal"][:2] == [0.0, 0.0] and item["at"][2] <= places[:, 2].min():
+            level = max(item["at"][2], -np.inf if level is None else level)
+            continue
+        vertices, triangles = boundary.outline(extent)
+        if boundary.soft or item["solid"] == "outside" or item.get("shape") == "plane":
+            glass.append(solid_body(vertices, triangles, GLASS, 0.5))
+        else:
+            solids.append(solid_body(vertices, triangles, STONE, 0.45, _sunken(boundary, vertices, places)))
+    for name, colour in (("attractors", PULL), ("repellers", PUSH)):
+        for source in environment.settings.get(name, ()):
+            at = np.array(source["at"])
+            if np.linalg.norm(at - places.mean(axis=0)) < 2.0 * extent:
+                solids.append(_ball(at, 0.012 * extent, colour))
+    return solids, glass, level
+
+
+def _sunken(boundary: Boundary, vertices: Floats, places: Floats) -> float:
+    """Give how deep the middles of faces lie in a boundary on which their corners rest.
+
+    The boundary is drawn so much smaller, up to a twentieth of its size, or it would hide the surface that covers it.
+    """
+    corners = places.reshape(-1, 3, 3)
+    middles = np.concatenate([corners.mean(axis=1), (0.5 * (corners + np.roll(corners, -1, axis=1))).reshape(-1, 3)])
+    within = np.ascontiguousarray(middles[boundary.inside(middles)])
+    if not len(within):
+        return 0.0
+    depth = np.linalg.norm(boundary.nearest_free(within) - within, axis=1)
+    return float(min(np.quantile(depth, 0.9) * 1.05, 0.05 * np.ptp(vertices, axis=0).max()))
+
+
+def _ball(at: Floats, radius: float, colour: Colour) -> Bodies:
+    from growth.environment.boundaries._kernels import BALL
+    from growth.environment.boundaries.outlines import outline_of
+
+    vertices, triangles = outline_of(BALL, np.full(3, radius), 1.0)
+    return solid_body(vertices + at, triangles, colour, 0.0)
+
+
+def _band(stage: _Stage, top: int, bottom: int, samples: int) -> Floats:
+    """Give the linear colours of a band of rows, (rows * samples, columns * samples, 3)."""
+    width = stage.camera.size[0]
+    column, row = np.arange(width * samples), np.arange(top * samples, bottom * samples)
+    x, y = np.meshgrid((column + 0.5) / samples, (row + 0.5) / samples)
+    spots = np.stack([x.reshape(-1), y.reshape(-1)], axis=1)
+    turns = ((column[None, :] % 2) + 2 * (row[:, None] % 2)).reshape(-1) % TURNS
+    ways = stage.camera.rays(spots[:, 0], spots[:, 1])
+    which, distance, at = stage.rays.first(np.broadcast_to(stage.camera.eye, ways.shape), ways)
+    colours = np.broadcast_to(_linear(PAPER), ways.shape).copy()
+    down = np.flatnonzero((which < 0) & (ways[:, 2] < -1e-9))
+    run = (stage.ground.level - stage.camera.eye[2]) / ways[down, 2]
+    ahead = run > 0.0
+    down, run = down[ahead], run[ahead]
+    colours[down] *= stage.ground.at((stage.camera.eye + run[:, None] * ways[down])[:, :2])[:, None]
+    hit = np.flatnonzero(which >= 0)
+    for turn in range(TURNS):
+        mine = hit[turns[hit] == turn]
+        colours[mine] = _shaded(stage, which[mine], at[mine], ways[mine], spots[mine], turn)
+    _glaze(stage, colours, ways, spots, distance)
+    return colours.reshape(len(row), len(column), 3)
+
+
+def _on(bodies: Bodies, which: NDArray[np.int32], at: Floats) -> tuple[Floats, Floats]:
+    """Give the places and unit shading normals at places of triangles."""
+    share = np.stack([1.0 - at.sum(axis=1), at[:, 0], at[:, 1]], axis=1)
+    normals = np.einsum("nk,nkj->nj", share, bodies.normals[which])
+    places = np.einsum("nk,nkj->nj", share, bodies.corners[which])
+    return places, normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+
+
+def _shaded(stage: _Stage, which: NDArray[np.int32], at: Floats, ways: Floats, spots: Floats, turn: int) -> Floats:
+    bodies = stage.bodies
+    places, normals = _on(bodies, which, at)
+    away = np.einsum("nj,nj->n", normals, ways) > 0.0
+    normals = np.where(away[:, None], -normals, normals)
+    albedo = _linear(np.where(away[:, None], bodies.back[which], bodies.front[which]))
+    lifted = places + 1.5e-3 * stage.rays.extent * normals
+    sunny, sky = lit(stage.rays, lifted, normals, turn, stage.suns)
+    facing = np.maximum(0.0, normals @ stage.suns.mean(axis=0))
+    up = 0.5 + 0.5 * normals[:, 2]
+    warm, cool, bounce = np.array([1.0, 0.965, 0.9]), np.array([0.93, 0.97, 1.03]), np.array([1.0, 0.98, 0.95])
+    light = (0.98 * facing * sunny)[:, None] * warm
+    light += (sky * (0.10 + 0.36 * up))[:, None] * cool + (sky * 0.16 * (1.0 - up))[:, None] * bounce
+    ink = _lines(stage.camera, bodies, which, spots)
+    return np.asarray(albedo * light * (1.0 - ink)[:, None])
+
+
+def _lines(camera: Camera, bodies: Bodies, which: NDArray[np.int32], spots: Floats) -> Floats:
+    """Give how dark the lines are at places of the picture: by the distance in pixels from the triangle's sides."""
+    seen = camera.seen(bodies.corners[which])
+    side = np.roll(seen, -1, axis=1) - seen
+    out = spots[:, None, :] - seen
+    twice = np.abs(side[:, 0, 0] * side[:, 1, 1] - side[:, 0, 1] * side[:, 1, 0])
+    length = np.maximum(np.linalg.norm(side, axis=2), 1e-9)
+    distance = np.abs(side[..., 0] * out[..., 1] - side[..., 1] * out[..., 0]) / length
+    strength = np.clip(0.5 + 0.5 * LINE_WIDTH - distance, 0.0, 1.0)
+    fine = np.clip(np.sqrt(twice) / 14.0, 0.12, 1.0)  # a tangle of lines would blacken small faces
+    return np.asarray((strength * bodies.lines[which]).max(axis=1) * fine)
+
+
+def _glaze(stage: _Stage, colours: Floats, ways: Floats, spots: Floats, distance: Floats) -> None:
+    """Lay the glass bodies that stand before what is seen over the colours, the nearest two sides of them."""
+    if not len(stage.glass):
+        return
+    origins = np.broadcast_to(stage.camera.eye, ways.shape).copy()
+    gone = np.zeros(len(ways))
+    live = np.arange(len(ways))
+    for _ in range(2):
+        which, run, at = stage.glass_rays.first(origins[live], ways[live])
+        before = (which >= 0) & (gone[live] + run < distance[live])
+        live, which, run, at = live[before], which[before], run[before], at[before]
+        _, normals = _on(stage.glass, which, at)
+        slant = 1.0 - np.abs(np.einsum("nj,nj->n", normals, ways[live]))
+        ink = _lines(stage.camera, stage.glass, which, spots[live])
+        cover = np.maximum(0.05 + 0.22 * slant**3, 0.7 * ink)[:, None]
+        colours[live] = colours[live] * (1.0 - cover) + _linear(stage.glass.front[which]) * cover
+        step = run + 2e-4 * stage.glass_rays.extent
+        gone[live] += step
+        origins[live] += step[:, None] * ways[live]
+
+
+def _linear(colour: Colour | Floats) -> Floats:
+    """Turn sRGB values into amounts of light."""
+    return np.asarray(np.power(np.asarray(colour, dtype=np.float64), 2.2))
+
+
+def _encoded(light: Floats) -> Floats:
+    """Turn amounts of light into sRGB values, the brightest rolled off gently."""
+    bright = np.where(light > 0.8, 0.8 + 0.2 * np.tanh((light - 0.8) / 0.2), light)
+    return np.asarray(np.power(np.clip(bright, 0.0, 1.0), 1.0 / 2.2))
