@@ -29,14 +29,15 @@ def _turn(up: Reals, ax: float, ay: float, az: float, bx: float, by: float, bz: 
     """Give a measure in [0, 4) of the angle from a to b, counter-clockwise about ``up``, that grows with it.
 
     A quarter turn counts 1. Only the order of two measures from the same a is used, and this one needs no arc tangent.
+    A direction along ``up`` has no bearing: then it is -1.
     """
     cross = up[0] * (ay * bz - az * by) + up[1] * (az * bx - ax * bz) + up[2] * (ax * by - ay * bx)
     a_up = ax * up[0] + ay * up[1] + az * up[2]
     b_up = bx * up[0] + by * up[1] + bz * up[2]
     dot = ax * bx + ay * by + az * bz - a_up * b_up
     size = abs(dot) + abs(cross)
-    if not size > 0.0:
-        return 0.0
+    if not size * size > (DIRECTION * (ax * ax + ay * ay + az * az)) * (DIRECTION * (bx * bx + by * by + bz * bz)):
+        return -1.0
     share = cross / size
     if dot < 0.0:
         return 2.0 - share
@@ -54,25 +55,35 @@ def _leaving(points: Reals, origin: Corners, h: int) -> tuple[float, float, floa
 def _wedge(
     points: Reals, origin: Corners, prev: Corners, first: int, dx: float, dy: float, dz: float, up: Reals,
 ) -> int:  # fmt: skip
-    """Give the corner at the origin of half-edge ``first`` that a direction points into, -1 where none."""
-    along = dx * up[0] + dy * up[1] + dz * up[2]
-    flat = dx * dx + dy * dy + dz * dz - along * along
-    if not flat > 1e-24:
-        return -1
-    corner = first
+    """Give the corner at the origin of half-edge ``first`` that a direction points into.
+
+    -1 for a direction along ``up`` and one that no corner holds, -2 for one along an edge. Where the surface is folded
+    and several corners hold it, the first one counter-clockwise from ``first`` counts.
+    """
+    corner, found = first, -1
     while True:
-        following = prev[corner] ^ 1
-        if following == corner:
-            return corner
         ax, ay, az = _leaving(points, origin, corner)
-        bx, by, bz = _leaving(points, origin, following)
-        width = _turn(up, ax, ay, az, bx, by, bz)
         turn = _turn(up, ax, ay, az, dx, dy, dz)
-        if DIRECTION < turn < width - DIRECTION:
-            return corner
+        if 0.0 <= turn < DIRECTION or turn > 4.0 - DIRECTION:
+            return -2
+        following = prev[corner] ^ 1
+        if found < 0 and turn >= 0.0 and turn < _width(points, origin, corner, following, up):
+            found = corner
         corner = following
         if corner == first:
-            return -1
+            return found
+
+
+@njit(cache=True)
+def _width(points: Reals, origin: Corners, corner: int, following: int, up: Reals) -> float:
+    """Give the measure from an edge to the next: 4 at the end of a chain, 0 for one direction, -1 for no bearing."""
+    if following == corner:
+        return 4.0
+    ax, ay, az = _leaving(points, origin, corner)
+    bx, by, bz = _leaving(points, origin, following)
+    width = _turn(up, ax, ay, az, bx, by, bz)
+    # Which of two edges that lie on each other comes first is rounding, not a full turn.
+    return 0.0 if width > 4.0 - DIRECTION else width
 
 
 @njit(cache=True)
@@ -168,9 +179,12 @@ def place_branches(
 @njit(cache=True)
 def replace_branches(
     points: Reals, origin: Corners, prev: Corners, face: Corners, moved: Ints, n_branches: int, corner: Corners,
-    heading: Reals, branch_up: Reals,
+    heading: Reals, branch_up: Reals, alive: Flags,
 ) -> None:  # fmt: skip
-    """Follow the corners of branches left from earlier rules through a rewriting."""
+    """Follow the corners of branches left from earlier rules through a rewriting.
+
+    A branch stays in its region. ``alive`` (n_branches,) bool is cleared for one that an edge now lies along.
+    """
     for b in range(n_branches):
         h = corner[b]
         if h < moved.shape[0] and moved[h] >= 0:
@@ -178,17 +192,21 @@ def replace_branches(
         d = heading[b]
         found = _wedge(points, origin, prev, h, d[0], d[1], d[2], branch_up[b])
         corner[b] = found if found >= 0 and face[found] == face[h] else h
+        alive[b] = found != -2
 
 
 @njit(cache=True)
 def _joint(
-    points: Reals, origin: Corners, corner: Corners, heading: Reals, a: int, b: int,
+    points: Reals, origin: Corners, corner: Corners, heading: Reals, a: int, b: int, least: float,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """Give the two angles in degrees between a branch and the segment to the other, and the distance."""
+    """Give the two angles in degrees between a branch and the segment to the other, and the distance.
+
+    Points no farther apart than ``least`` coincide: the segment between them has no direction.
+    """
     p, q = origin[corner[a]], origin[corner[b]]
     dx, dy, dz = points[q, 0] - points[p, 0], points[q, 1] - points[p, 1], points[q, 2] - points[p, 2]
     distance = math.sqrt(dx * dx + dy * dy + dz * dz)
-    if p == q or not distance > 0.0:
+    if p == q or not distance > least:
         return 180.0, 180.0, 0.0
     return _between(heading[a], dx, dy, dz), _between(heading[b], -dx, -dy, -dz), distance
 
@@ -233,7 +251,7 @@ def group_branches(
 @njit(cache=True)
 def find_joints(
     points: Reals, origin: Corners, corner: Corners, heading: Reals, order: Ints, key: Ints, pairs: int,
-    branch_angle: float, limit: float,
+    branch_angle: float, least: float, limit: float,
 ) -> tuple[Ints, Ints, Ints, Reals]:  # fmt: skip
     """Find the pairs of branches that may join (Hemberg 2006, section 4.3, step 3).
 
@@ -252,7 +270,7 @@ def find_joints(
         for j in range(start, i):
             for k in range(j + 1, i):
                 a, b = order[j], order[k]
-                at_a, at_b, distance = _joint(points, origin, corner, heading, a, b)
+                at_a, at_b, distance = _joint(points, origin, corner, heading, a, b, least)
                 if at_a < branch_angle - TIE and at_b < branch_angle - TIE and distance <= limit:
                     low = origin[corner[a]] < origin[corner[b]]
                     first[found], second[found] = (a, b) if low else (b, a)
@@ -270,7 +288,8 @@ def join(
 ) -> tuple[int, int]:  # fmt: skip
     """Join pairs of branches, best first; each joined edge splits its region.
 
-    Parameters are as everywhere in this file; ``alive`` (n_branches,) bool is cleared for branches that joined.
+    Parameters are as everywhere in this file; ``alive`` (n_branches,) bool is cleared for branches that joined or that
+    a joined edge lies along.
     Gives the new numbers of edges and faces.
     """
     head = np.full(n_vertices, -1, dtype=np.int64)
@@ -297,8 +316,8 @@ def join(
         _claim_shorter_loop(nxt, face, there, back, n_faces)
         n_faces += 1
         alive[a] = alive[b] = False
-        _divide_corner(points, origin, corner, heading, branch_up, alive, head, chain, at_u, there)
-        _divide_corner(points, origin, corner, heading, branch_up, alive, head, chain, at_w, back)
+        _divide_corner(points, origin, prev, corner, heading, branch_up, alive, head, chain, at_u, there)
+        _divide_corner(points, origin, prev, corner, heading, branch_up, alive, head, chain, at_w, back)
     return n_edges, n_faces
 
 
@@ -319,19 +338,48 @@ def _claim_shorter_loop(nxt: Corners, face: Corners, one: int, other: int, new_f
 
 @njit(cache=True)
 def _divide_corner(
-    points: Reals, origin: Corners, corner: Corners, heading: Reals, branch_up: Reals, alive: Flags, head: Ints,
-    chain: Ints, old: int, new: int,
+    points: Reals, origin: Corners, prev: Corners, corner: Corners, heading: Reals, branch_up: Reals, alive: Flags,
+    head: Ints, chain: Ints, old: int, new: int,
 ) -> None:  # fmt: skip
-    """Move branches of the corner ``old`` that lie beyond the new half-edge ``new`` into the corner of ``new``."""
+    """Move branches of the corner ``old`` that lie beyond the new half-edge ``new`` into the corner of ``new``.
+
+    A branch along the new half-edge lies in neither half and goes.
+    """
+    following = prev[new] ^ 1
     ox, oy, oz = _leaving(points, origin, old)
     nx, ny, nz = _leaving(points, origin, new)
     b = head[origin[old]]
     while b >= 0:
         if alive[b] and corner[b] == old:
             up, d = branch_up[b], heading[b]
-            if _turn(up, ox, oy, oz, d[0], d[1], d[2]) > _turn(up, ox, oy, oz, nx, ny, nz):
-                corner[b] = new
+            width = _width(points, origin, old, following, up)
+            turn, cut = _turn(up, ox, oy, oz, d[0], d[1], d[2]), _turn(up, ox, oy, oz, nx, ny, nz)
+            if min(width, turn, cut) < 0.0:
+                alive[b] = False
+            else:
+                turn, cut = _beside(turn, width), _beside(cut, width)
+                alive[b] = abs(turn - cut) > DIRECTION
+                if turn > cut:
+                    corner[b] = new
         b = chain[b]
+
+
+@njit(cache=True)
+def _beside(turn: float, width: float) -> float:
+    """Make the measure of a direction outside a corner negative where the corner's first edge is the nearer one.
+
+    A joined edge bends away from its heading and can leave its corner; what lies in the corner is then beyond it.
+    """
+    if turn > width and 2.0 * _degrees(turn) > 360.0 + _degrees(width):
+        return turn - 4.0
+    return turn
+
+
+@njit(cache=True)
+def _degrees(turn: float) -> float:
+    """Give the angle that a measure of ``_turn`` stands for."""
+    quarter = math.floor(turn)
+    return 90.0 * quarter + math.degrees(math.atan2(turn - quarter, 1.0 - turn + quarter))
 
 
 @njit(cache=True)

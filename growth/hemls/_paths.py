@@ -23,8 +23,12 @@ EXTERIOR = -1
 
 @njit(cache=True)
 def face_normals(points: Reals, origin: Corners, face: Corners, n_edges: int, normals: Reals) -> None:
-    """Write the unit normal of each face, zero where it has no area, into ``normals`` (F, 3) (Newell)."""
+    """Write the unit normal of each face, zero where it has no area, into ``normals`` (F, 3) (Newell).
+
+    An area that rounding alone could make (of two edges that lie on each other, say) is none: its normal is noise.
+    """
     normals[:] = 0.0
+    squares = np.zeros(normals.shape[0])
     for h in range(2 * n_edges):
         f = face[h]
         if f == EXTERIOR:
@@ -35,9 +39,10 @@ def face_normals(points: Reals, origin: Corners, face: Corners, n_edges: int, no
         normals[f, 0] += (ay - by) * (az + bz)
         normals[f, 1] += (az - bz) * (ax + bx)
         normals[f, 2] += (ax - bx) * (ay + by)
+        squares[f] += (ax - bx) ** 2 + (ay - by) ** 2 + (az - bz) ** 2
     for f in range(normals.shape[0]):
         size = math.sqrt(normals[f, 0] ** 2 + normals[f, 1] ** 2 + normals[f, 2] ** 2)
-        if size > 1e-300:
+        if size > 1e-9 * squares[f]:
             normals[f] /= size
         else:
             normals[f] = 0.0
@@ -65,7 +70,7 @@ def _frame(points: Reals, origin: Corners, face: Corners, normals: Reals, edge: 
     along = ux * hx + uy * hy + uz * hz
     ux, uy, uz = ux - along * hx, uy - along * hy, uz - along * hz
     size = math.sqrt(ux * ux + uy * uy + uz * uz)
-    if size < 1e-12:
+    if size < 1e-9:
         # No region tells where up is: take z, or y for an edge that runs along z.
         if abs(hz) < 0.9:
             ux, uy, uz = -hz * hx, -hz * hy, 1.0 - hz * hz

@@ -16,6 +16,9 @@ from growth.protocol import Budget, Failure
 
 Ints = NDArray[np.int64]
 
+COINCIDENT = 1e-9
+"""Points nearer than this share of the form's size coincide, and distances nearer to each other are equal."""
+
 
 @dataclass(slots=True)
 class Branches:
@@ -98,7 +101,11 @@ class Rewriting:
             self.chained.append((old_edges, m.edges))
         b = self.branches
         if b.count:
-            _branches.replace_branches(m.points, m.origin, m.prev, m.face, moved, b.count, b.corner, b.heading, b.up)
+            alive = np.ones(b.count, dtype=np.bool_)
+            _branches.replace_branches(
+                m.points, m.origin, m.prev, m.face, moved, b.count, b.corner, b.heading, b.up, alive
+            )
+            b.count = _branches.keep_alive(b.count, b.corner, b.heading, b.up, b.label, alive)
         if len(p.branch_node):
             b.count = _branches.place_branches(
                 m.points, m.origin, m.prev, m.face, edges, rules, n, p.segment_start, p.segment_flip, p.branch_start,
@@ -115,16 +122,17 @@ class Rewriting:
         order, key, pairs = _branches.group_branches(m.face, b.corner, b.label, b.count, m.faces, self.n_labels)
         if pairs > self.budget.pairs:
             return _over("pairs of branches in one joining", pairs, self.budget.pairs, "max_pairs")
-        first, second, bend, span = _branches.find_joints(
-            m.points, m.origin, b.corner, b.heading, order, key, pairs, self.branch_angle, self.branch_distance
-        )
-        if not len(first):
-            return None
         size = _whole.extent(m.points, m.vertices)
         if not math.isfinite(size):
             return Failure("diverged", "a vertex left the range of numbers")
+        first, second, bend, span = _branches.find_joints(
+            m.points, m.origin, b.corner, b.heading, order, key, pairs, self.branch_angle, size * COINCIDENT,
+            self.branch_distance,
+        )  # fmt: skip
+        if not len(first):
+            return None
         # Distances that differ by rounding alone are equal, so that ids decide and not the last bit.
-        steps = np.rint(span / (size * 1e-9)).astype(np.int64)
+        steps = np.rint(span / (size * COINCIDENT)).astype(np.int64)
         ids = m.origin[b.corner[first]].astype(np.int64) * m.vertices + m.origin[b.corner[second]]
         best = np.lexsort((ids, steps, bend))
         m.reserve(m.vertices, m.edges + b.count // 2)

@@ -119,8 +119,11 @@ def draw_all(system: System) -> list[Template]:
 
 
 def _walk(drawing: _Drawing, symbols: Sequence[Symbol], turtle: _Turtle, angle: float, inside: bool) -> None:
-    """Follow the symbols of one bracket level; the last segment inside a bracket is its branch."""
-    last = max((i for i in _own(symbols) if isinstance(symbols[i], Segment)), default=-1)
+    """Follow the symbols of one bracket level; the last segment inside a bracket is its branch.
+
+    One that an inner bracket goes on from is an edge, as that bracket needs a vertex to start from.
+    """
+    last = max((i for i, symbol in enumerate(symbols) if isinstance(symbol, Segment)), default=-1)
     index = 0
     while index < len(symbols):
         symbol = symbols[index]
@@ -148,19 +151,6 @@ def _segment(drawing: _Drawing, turtle: _Turtle, segment: Segment, inside: bool)
         drawing.segments.append((segment.label, segment.reversed))
         drawing.path.append(node)
     return node
-
-
-def _own(symbols: Sequence[Symbol]) -> list[int]:
-    """Give the places of the symbols that stand in no inner bracket."""
-    places, depth = [], 0
-    for index, symbol in enumerate(symbols):
-        if symbol == "[":
-            depth += 1
-        elif symbol == "]":
-            depth -= 1
-        elif depth == 0:
-            places.append(index)
-    return places
 
 
 def _closing(symbols: Sequence[Symbol], opening: int) -> int:
