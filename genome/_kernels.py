@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -15,18 +17,19 @@ Bytes = NDArray[np.uint8]
 LABEL, BOUND, CALL, CHOOSE, OPTION, TEST, REPEAT, JUMP, END, WRITE = range(10)
 """The operations; :mod:`genome.program` writes them. Those up to TEST read a gene."""
 
+DIGITS = 20
+"""Room for any label's number."""
+
 DONE, OUT_OF_GENES, TOO_LONG, NEGATIVE = range(4)
 """How an expansion ends."""
 
 
 @njit(cache=True)
-def roomy(stack: Ints, size: int) -> Ints:
-    """Give the stack itself, or a copy of twice its room where it holds fewer than ``size`` numbers."""
-    if size <= stack.size:
-        return stack
-    larger = np.empty(2 * max(size, stack.size), dtype=np.int64)
-    larger[: stack.size] = stack
-    return larger
+def larger(array: NDArray[Any], size: int) -> NDArray[Any]:
+    """Give a copy with room for twice ``size`` numbers."""
+    copy = np.empty(2 * size, dtype=array.dtype)
+    copy[: array.size] = array
+    return copy
 
 
 @njit(cache=True)
@@ -37,26 +40,25 @@ def chosen(choices: Ints, targets: Ints, row: int, gene: int, short: bool) -> in
 
 
 @njit(cache=True)
-def put(out: Bytes, size: int, letters: Bytes, first: int, end: int, number: int) -> tuple[Bytes, int]:
-    """Append letters and, where it is not negative, a number; the buffer grows as needed."""
-    if size + end - first + 20 > out.size:
-        larger = np.empty(2 * (size + end - first + 20), dtype=np.uint8)
-        larger[:size] = out[:size]
-        out = larger
+def put(out: Bytes, size: int, letters: Bytes, first: int, end: int) -> int:
+    """Write some of the letters into ``out`` from ``size`` on, and give its new size."""
     for i in range(first, end):
-        out[size] = letters[i]
-        size += 1
-    if number >= 0:
-        digits = 1
-        power = 10
-        while digits < 19 and number >= power:
-            digits += 1
-            power *= 10
-        for i in range(size + digits - 1, size - 1, -1):
-            out[i] = 48 + number % 10
-            number //= 10
-        size += digits
-    return out, size
+        out[size + i - first] = letters[i]
+    return size + end - first
+
+
+@njit(cache=True)
+def put_number(out: Bytes, size: int, number: int) -> int:
+    """Write a number of 0 or more into ``out`` from ``size`` on, and give its new size."""
+    digits = 1
+    power = 10
+    while digits < 19 and number >= power:
+        digits += 1
+        power *= 10
+    for i in range(size + digits - 1, size - 1, -1):
+        out[i] = 48 + number % 10
+        number //= 10
+    return size + digits
 
 
 @njit(cache=True)
@@ -103,6 +105,7 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
     size = written = top = base = gene = 0
     operation, pc = CALL, -1
     depth -= 1
+    at = reads % genes.size
     if genes.min() < 0:
         return NEGATIVE, reads, labels, written, out[:0]
     while True:
@@ -112,8 +115,9 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
         if operation <= TEST and number < 0:
             if reads == max_reads:
                 return OUT_OF_GENES, reads, labels, written, out[:0]
-            gene = genes[reads % genes.size]
+            gene = genes[at]
             reads += 1
+            at = at + 1 if at + 1 < genes.size else 0
         if operation == WRITE or operation <= BOUND:
             if written == max_tokens:
                 return TOO_LONG, reads, labels, written, out[:0]
@@ -126,12 +130,19 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
                     labels = max(labels, number + 1)
                 if operation == BOUND:
                     stack[base + 2 + argument] = number
-            out, size = put(out, size, letters, spans[word, 0], spans[word, 1], number)
+            needed = size + spans[word, 1] - spans[word, 0] + DIGITS
+            if needed > out.size:
+                out = larger(out, needed)
+            size = put(out, size, letters, spans[word, 0], spans[word, 1])
+            if number >= 0:
+                size = put_number(out, size, number)
         elif operation == CALL:
-            stack = roomy(stack, top + 2 + bound)
+            if top + 2 + bound > stack.size:
+                stack = larger(stack, top + 2 + bound)
             stack[top] = pc
             stack[top + 1] = base
-            stack[top + 2 : top + 2 + bound] = -1
+            for i in range(top + 2, top + 2 + bound):
+                stack[i] = -1
             base = top
             top += 2 + bound
             depth += 1
@@ -141,7 +152,8 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
         elif operation == OPTION:
             pc = pc if gene % 2 == 1 else argument
         elif operation == REPEAT:
-            stack = roomy(stack, top + 1)
+            if top == stack.size:
+                stack = larger(stack, top + 1)
             stack[top] = 0
             top += 1
         elif operation == TEST:
@@ -218,6 +230,50 @@ def ruled_labels(text: Bytes, stem: Bytes, labels: int) -> NDArray[np.bool_]:
 
 
 @njit(cache=True)
+def rule_file(text: Bytes, rules: Bytes) -> Bytes:
+    """Lay out a sentence as lines, each ended by a line feed, empty ones left out.
+
+    Parameters
+    ----------
+    text
+        (t,) uint8, tokens with blanks between them, ``;`` ending each line.
+    rules
+        (r,) uint8, lines to stand behind the last line with an arrow, or else behind the first.
+
+    Returns
+    -------
+    (n,) uint8
+    """
+    out = np.empty(text.size + rules.size + 1, dtype=np.uint8)
+    size = line = place = 0  # `line` is where the present one begins, `place` where the rules go
+    arrow = False
+    end = -1
+    while end < text.size:
+        first = end + 1
+        end = first
+        while end < text.size and text[end] != 32:
+            end += 1
+        ends_line = end - first == 1 and text[first] == 59
+        if not ends_line and end > first:
+            arrow = arrow or (end - first == 2 and text[first] == 45 and text[first + 1] == 62)
+            if size > line:
+                out[size] = 32
+                size += 1
+            out[size : size + end - first] = text[first:end]
+            size += end - first
+        if (ends_line or end >= text.size) and size > line:
+            out[size] = 10
+            size += 1
+            if arrow or line == 0:
+                place = size
+            line = size
+            arrow = False
+    out[place + rules.size : size + rules.size] = out[place:size].copy()
+    out[place : place + rules.size] = rules
+    return out[: size + rules.size]
+
+
+@njit(cache=True)
 def expand_with_repair(
     code: Ints,
     choices: Ints,
@@ -228,7 +284,7 @@ def expand_with_repair(
     start: tuple[int, int, int, int],
     limits: tuple[int, int, int, int],
     repair: tuple[int, int],
-) -> tuple[int, int, Bytes, Bytes, Ints]:
+) -> tuple[int, int, Bytes, Ints]:
     """Expand the start symbol, and then a rule for each label that has none.
 
     Parameters
@@ -243,9 +299,7 @@ def expand_with_repair(
     status, reads : int
         As from :func:`expand`.
     text : (t,) uint8
-        The sentence.
-    rules : (r,) uint8
-        The rules that were added, a ``;`` before each.
+        The sentence laid out as a rule file, with the rules that were added.
     repaired : (n,) int64
         Their labels; where the status is not DONE, the last is the one that was being repaired, if any.
     """
@@ -254,16 +308,18 @@ def expand_with_repair(
     repaired = np.empty(16, dtype=np.int64)
     size = count = 0
     if status != DONE:
-        return status, reads, text, rules[:0], repaired[:0]
+        return status, reads, text, repaired[:0]
     symbol, depth = repair
     bound, max_depth, max_reads, max_tokens = limits
     stem = spans.shape[0] - 1
     ruled = ruled_labels(text[1:], letters[spans[stem, 0] + 1 : spans[stem, 1]], labels)
-    signs = np.array([59, 32, 45, 62], dtype=np.uint8)  # ; ->
+    arrow = np.array([32, 45, 62], dtype=np.uint8)
+    newline = np.array([10], dtype=np.uint8)
     label = 0
     while label < labels:  # a repair may bring new labels, which come after all the others
         if label >= ruled.size or not ruled[label]:
-            repaired = roomy(repaired, count + 1)
+            if count == repaired.size:
+                repaired = larger(repaired, count + 1)
             repaired[count] = label
             count += 1
             status, reads, labels, tokens, successor = expand(
@@ -277,11 +333,14 @@ def expand_with_repair(
                 (bound, max_depth, max_reads, max_tokens - written),
             )
             if status != DONE:
-                break
+                return status, reads, text, repaired[:count]
             written += tokens
-            rules, size = put(rules, size, signs, 0, 1, -1)
-            rules, size = put(rules, size, letters, spans[stem, 0], spans[stem, 1], label)
-            rules, size = put(rules, size, signs, 1, 4, -1)
-            rules, size = put(rules, size, successor, 0, successor.size, -1)
+            needed = size + spans[stem, 1] - spans[stem, 0] + DIGITS + successor.size + 4
+            if needed > rules.size:
+                rules = larger(rules, needed)
+            size = put(rules, size, letters, spans[stem, 0] + 1, spans[stem, 1])
+            size = put(rules, put_number(rules, size, label), arrow, 0, 3)
+            size = put(rules, size, successor, 0, successor.size)
+            size = put(rules, size, newline, 0, 1)
         label += 1
-    return status, reads, text, rules[:size], repaired[:count]
+    return status, reads, rule_file(text[1:], rules[:size]), repaired[:count]

@@ -175,21 +175,12 @@ class Genr8Mapper:
         if not row.size:
             return NO_GENES
         limits = (*self._limits, row.size * (self._wraps + 1), self._max_tokens)
-        status, reads, text, rules, labels = _kernels.expand_with_repair(
-            *self._arrays, row, self._start, limits, self._repair
-        )
+        status, reads, text, labels = _kernels.expand_with_repair(*self._arrays, row, self._start, limits, self._repair)
         repaired = tuple(labels.tolist())
         if status != _kernels.DONE:
             reason = unmapped(status, reads, row.size, self._wraps, self._max_tokens).reason
             return Unmapped(f"{reason}, while repairing Edge{repaired[-1]}" if repaired else reason)
-        lines = _lines(text.tobytes())
-        place = max((i for i, line in enumerate(lines) if "->" in line), default=0) + 1
-        lines[place:place] = _lines(rules.tobytes())
-        return Mapped("\n".join(lines) + "\n", reads, repaired)
-
-
-def _lines(text: bytes) -> list[str]:
-    return [line.strip() for line in text.decode().split(";") if line.strip()]
+        return Mapped(text.tobytes().decode(), reads, repaired)
 
 
 def compile_kernels() -> None:
