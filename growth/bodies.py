@@ -84,19 +84,13 @@ def _side_keys(face: NDArray[np.int64], a: NDArray[np.int64], b: NDArray[np.int6
     return (face * count + np.minimum(a, b)) * count + np.maximum(a, b)
 
 
-def solid_body(
-    vertices: Floats, triangles: NDArray[np.int32], colour: Colour, line: float, inset: float = 0.0
-) -> Bodies:
-    """Give a boundary's outline: round where its faces turn gently, lines where they crease; drawn ``inset`` within."""
+def solid_body(vertices: Floats, triangles: NDArray[np.int32], colour: Colour, line: float) -> Bodies:
+    """Give a boundary's outline: round where its faces turn gently, lines where they crease."""
     corners = vertices[triangles]
     flat = newell_normals(corners)
     unit = _unit(flat)
     _, vertex = np.unique(vertices, axis=0, return_inverse=True)
     vertex = vertex.reshape(-1)[triangles]
-    if inset > 0.0:
-        outward = np.zeros((int(vertex.max()) + 1, 3))
-        np.add.at(outward, vertex.reshape(-1), np.repeat(flat, 3, axis=0))
-        corners = corners - inset * _unit(outward)[vertex]
     normals = _rounded(vertex.reshape(-1), np.repeat(flat, 3, axis=0), np.repeat(unit, 3, axis=0))
     lines = np.where(_creased(vertex.astype(np.int64), unit), line, 0.0)
     return _coloured(corners, normals.reshape(-1, 3, 3), colour, colour, lines)

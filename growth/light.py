@@ -33,7 +33,7 @@ class Rays:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 
-        self.extent = float(np.ptp(corners.reshape(-1, 3), axis=0).max()) if len(corners) else 1.0
+        self.extent = (float(np.ptp(corners.reshape(-1, 3), axis=0).max()) if len(corners) else 0.0) or 1.0
         self.centre = corners.reshape(-1, 3).mean(axis=0) if len(corners) else np.zeros(3)
         self._scene = EmbreeScene()
         self._any = len(corners) > 0

@@ -19,7 +19,6 @@ from genome.errors import InputError
 from growth.bodies import Bodies, Colour, joined, solid_body, surface_body
 from growth.camera import Camera, looking_at
 from growth.environment import Environment
-from growth.environment.boundaries.protocol import Boundary
 from growth.forms import write_whole
 from growth.light import TURNS, Ground, Rays, lit, sun_towards
 from growth.surface import Surface
@@ -35,7 +34,7 @@ GLASS: Final[Colour] = (0.46, 0.55, 0.63)
 PULL: Final[Colour] = (0.16, 0.35, 0.56)
 PUSH: Final[Colour] = (0.72, 0.16, 0.14)
 FRONTS: Final[tuple[Colour, ...]] = (
-    (0.83, 0.46, 0.33),
+    (0.81, 0.46, 0.34),
     (0.27, 0.48, 0.58),
     (0.80, 0.64, 0.28),
     (0.45, 0.52, 0.34),
@@ -46,6 +45,9 @@ FRONTS: Final[tuple[Colour, ...]] = (
 LINE: Final = 0.78
 LINE_WIDTH: Final = 1.15
 BAND: Final = 128
+DEEPEST: Final = 0.1
+"""How far behind a solid's surface a face that is cut by it still shows, as a share of the scene."""
+
 MOST_BYTES: Final = 300_000
 
 
@@ -58,7 +60,10 @@ class _Stage:
     camera: Camera
     suns: Floats
     rays: Rays
+    shown: int
+    shown_rays: Rays
     glass_rays: Rays
+    environment: Environment | None
 
 
 def render(
@@ -151,7 +156,18 @@ def _staged(
     if level is None:
         level = float(bodies.corners[..., 2].min()) - 0.003 * extent
     panes = joined(glass)
-    return _Stage(bodies, panes, Ground(rays, level, suns), camera, suns, rays, Rays(panes.corners))
+    return _Stage(
+        bodies,
+        panes,
+        Ground(rays, level, suns),
+        camera,
+        suns,
+        rays,
+        len(shown),
+        Rays(shown.corners),
+        Rays(panes.corners),
+        environment,
+    )
 
 
 def _surroundings(
@@ -173,27 +189,13 @@ def _surroundings(
         if boundary.soft or item["solid"] == "outside" or item.get("shape") == "plane":
             glass.append(solid_body(vertices, triangles, GLASS, 0.5))
         else:
-            solids.append(solid_body(vertices, triangles, STONE, 0.45, _sunken(boundary, vertices, places)))
+            solids.append(solid_body(vertices, triangles, STONE, 0.45))
     for name, colour in (("attractors", PULL), ("repellers", PUSH)):
         for source in environment.settings.get(name, ()):
             at = np.array(source["at"])
             if np.linalg.norm(at - places.mean(axis=0)) < 2.0 * extent:
                 solids.append(_ball(at, 0.012 * extent, colour))
     return solids, glass, level
-
-
-def _sunken(boundary: Boundary, vertices: Floats, places: Floats) -> float:
-    """Give how deep the middles of faces lie in a boundary on which their corners rest.
-
-    The boundary is drawn so much smaller, up to a twentieth of its size, or it would hide the surface that covers it.
-    """
-    corners = places.reshape(-1, 3, 3)
-    middles = np.concatenate([corners.mean(axis=1), (0.5 * (corners + np.roll(corners, -1, axis=1))).reshape(-1, 3)])
-    within = np.ascontiguousarray(middles[boundary.inside(middles)])
-    if not len(within):
-        return 0.0
-    depth = np.linalg.norm(boundary.nearest_free(within) - within, axis=1)
-    return float(min(np.quantile(depth, 0.9) * 1.05, 0.05 * np.ptp(vertices, axis=0).max()))
 
 
 def _ball(at: Floats, radius: float, colour: Colour) -> Bodies:
@@ -213,6 +215,7 @@ def _band(stage: _Stage, top: int, bottom: int, samples: int) -> Floats:
     turns = ((column[None, :] % 2) + 2 * (row[:, None] % 2)).reshape(-1) % TURNS
     ways = stage.camera.rays(spots[:, 0], spots[:, 1])
     which, distance, at = stage.rays.first(np.broadcast_to(stage.camera.eye, ways.shape), ways)
+    _uncover(stage, ways, which, distance, at)
     colours = np.broadcast_to(_linear(PAPER), ways.shape).copy()
     down = np.flatnonzero((which < 0) & (ways[:, 2] < -1e-9))
     run = (stage.ground.level - stage.camera.eye[2]) / ways[down, 2]
@@ -222,23 +225,44 @@ def _band(stage: _Stage, top: int, bottom: int, samples: int) -> Floats:
     hit = np.flatnonzero(which >= 0)
     for turn in range(TURNS):
         mine = hit[turns[hit] == turn]
-        colours[mine] = _shaded(stage, which[mine], at[mine], ways[mine], spots[mine], turn)
+        places = stage.camera.eye + distance[mine, None] * ways[mine]
+        colours[mine] = _shaded(stage, which[mine], at[mine], places, spots[mine], turn)
     _glaze(stage, colours, ways, spots, distance)
     return colours.reshape(len(row), len(column), 3)
 
 
-def _on(bodies: Bodies, which: NDArray[np.int32], at: Floats) -> tuple[Floats, Floats]:
-    """Give the places and unit shading normals at places of triangles."""
+def _uncover(stage: _Stage, ways: Floats, which: NDArray[np.int32], distance: Floats, at: Floats) -> None:
+    """Show, in place, the faces that a solid hides although their corners rest on it: a chord runs within a sphere.
+
+    They are seen and lit as if they lay on the solid, where they run within it and not deep behind what hides them.
+    """
+    hidden = np.flatnonzero(which >= stage.shown)
+    if stage.environment is None or not len(hidden):
+        return
+    eye = np.broadcast_to(stage.camera.eye, (len(hidden), 3))
+    behind, run, spot = stage.shown_rays.first(eye, ways[hidden])
+    close = (behind >= 0) & (run - distance[hidden] < DEEPEST * stage.rays.extent)
+    hidden, behind, run, spot = hidden[close], behind[close], run[close], spot[close]
+    within = stage.environment.inside(stage.camera.eye + run[:, None] * ways[hidden])
+    over = _normals(stage.bodies, which[hidden], at[hidden])
+    under = _normals(stage.bodies, behind, spot)
+    turned = np.einsum("nj,nj->n", over, under) * np.einsum("nj,nj->n", ways[hidden], under) > 0.0
+    taken = within & ~turned  # a turned one lies beyond the solid's horizon
+    which[hidden[taken]] = behind[taken]
+    at[hidden[taken]] = spot[taken]
+
+
+def _normals(bodies: Bodies, which: NDArray[np.int32], at: Floats) -> Floats:
+    """Give the unit shading normals at places of triangles."""
     share = np.stack([1.0 - at.sum(axis=1), at[:, 0], at[:, 1]], axis=1)
     normals = np.einsum("nk,nkj->nj", share, bodies.normals[which])
-    places = np.einsum("nk,nkj->nj", share, bodies.corners[which])
-    return places, normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12))
 
 
-def _shaded(stage: _Stage, which: NDArray[np.int32], at: Floats, ways: Floats, spots: Floats, turn: int) -> Floats:
+def _shaded(stage: _Stage, which: NDArray[np.int32], at: Floats, places: Floats, spots: Floats, turn: int) -> Floats:
     bodies = stage.bodies
-    places, normals = _on(bodies, which, at)
-    away = np.einsum("nj,nj->n", normals, ways) > 0.0
+    normals = _normals(bodies, which, at)
+    away = np.einsum("nj,nj->n", normals, places - stage.camera.eye) > 0.0
     normals = np.where(away[:, None], -normals, normals)
     albedo = _linear(np.where(away[:, None], bodies.back[which], bodies.front[which]))
     lifted = places + 1.5e-3 * stage.rays.extent * normals
@@ -276,7 +300,7 @@ def _glaze(stage: _Stage, colours: Floats, ways: Floats, spots: Floats, distance
         which, run, at = stage.glass_rays.first(origins[live], ways[live])
         before = (which >= 0) & (gone[live] + run < distance[live])
         live, which, run, at = live[before], which[before], run[before], at[before]
-        _, normals = _on(stage.glass, which, at)
+        normals = _normals(stage.glass, which, at)
         slant = 1.0 - np.abs(np.einsum("nj,nj->n", normals, ways[live]))
         ink = _lines(stage.camera, stage.glass, which, spots[live])
         cover = np.maximum(0.05 + 0.22 * slant**3, 0.7 * ink)[:, None]
