@@ -46,24 +46,30 @@ def find(
         return import_object(point.value, where, what)
     known = sorted([*registry, *(point.name for point in entry_points(group=group))])
     if name in later:
-        remedy = f"known now: {', '.join(known)}"
-        raise InputError(where, f"a {what} that is built", f"'{name}', which comes with a later version", remedy)
-    raise InputError(where, f"a {what}", f"'{name}'", near(name, [*known, *later]))
+        got, remedy = f"'{name}', which comes with a later version", f"known now: {', '.join(known)}"
+        raise InputError(where, f"{article(what)} that is built", got, remedy)
+    raise InputError(where, article(what), f"'{name}'", near(name, [*known, *later]))
 
 
 def import_object(reference: str, where: str, what: str) -> object:
     """Import ``package.module:object``; see :func:`find`."""
     if not IMPORT_PATH.fullmatch(reference):
-        raise InputError(where, f"a {what}'s name or an import path 'package.module:object'", f"'{reference}'")
+        expected = f"{article(what)}'s name or an import path 'package.module:object'"
+        raise InputError(where, expected, f"'{reference}'")
     module_name, _, attribute = reference.partition(":")
     try:
         found: object = importlib.import_module(module_name)
     except Exception as error:  # noqa: BLE001 - a plug-in's module may raise anything while it is imported
         got = f"'{reference}', whose module does not import ({type(error).__name__}: {error})"
         remedy = "install it, or put its folder on PYTHONPATH"
-        raise InputError(where, f"a {what} that can be imported", got, remedy) from None
+        raise InputError(where, f"{article(what)} that can be imported", got, remedy) from None
     for part in attribute.split("."):
         if not hasattr(found, part):
-            raise InputError(where, f"a {what} in the module {module_name}", f"no '{attribute}' there")
+            raise InputError(where, f"{article(what)} in the module {module_name}", f"no '{attribute}' there")
         found = getattr(found, part)
     return found
+
+
+def article(noun: str) -> str:
+    """Give a noun with its article, for a message."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"

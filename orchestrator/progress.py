@@ -43,9 +43,21 @@ def progress_on(stream: TextIO) -> Progress:
     return LiveTable(stream) if stream.isatty() else PlainLines(stream)
 
 
-def time_left(done: int, epochs: int, elapsed: float) -> float | None:
-    """Estimate the seconds left from the epochs done; the first population counts as one. ``None`` at the start."""
-    return elapsed / (done + 1) * (epochs - done) if done >= 0 else None
+@final
+class Pace:
+    """Estimates the time left, from the epochs done since the first population was scored."""
+
+    def __init__(self, epochs: int, generations: int) -> None:
+        self._epochs, self._generations = epochs, generations
+        self._began = self._settled = time.perf_counter()
+
+    def left(self, epoch: int) -> float:
+        """Give the seconds left once an epoch is done; after epoch 0 by the time that one generation took."""
+        now = time.perf_counter()
+        if epoch == 0:
+            self._settled = now
+            return (now - self._began) * self._epochs * self._generations
+        return (now - self._settled) / epoch * (self._epochs - epoch)
 
 
 def clock_text(seconds: float) -> str:
@@ -65,13 +77,13 @@ class PlainLines:
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self._epochs = 0
-        self._started = 0.0
+        self._pace = Pace(0, 0)
         self._migrants = 0
 
     def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
         """Say what is about to happen."""
         self._epochs = experiment.length
-        self._started = time.perf_counter()
+        self._pace = Pace(experiment.length, experiment.epoch)
         generations = experiment.length * experiment.epoch
         self.note(f"run {folder.name}: {len(plan.islands)} islands, {generations} generations, into {folder}")
 
@@ -81,7 +93,7 @@ class PlainLines:
         means = [row.mean for row in rows if row.mean is not None]
         mean = sum(means) / len(means) if means else None
         self._migrants += sum(row.migrants for row in rows)
-        left = time_left(epoch, self._epochs, time.perf_counter() - self._started) or 0.0
+        left = self._pace.left(epoch)
         invalid = sum(row.invalid for row in rows)
         self.note(
             f"epoch {epoch}/{self._epochs}  generation {rows[0].generation}  best {_number(best)}  "
@@ -104,7 +116,7 @@ class LiveTable:
         self._stream = stream
         self._live: Live | None = None
         self._epochs = 0
-        self._started = 0.0
+        self._pace = Pace(0, 0)
         self._migrants: dict[str, int] = {}
         self._title = ""
 
@@ -114,7 +126,7 @@ class LiveTable:
         from rich.live import Live
 
         self._epochs = experiment.length
-        self._started = time.perf_counter()
+        self._pace = Pace(experiment.length, experiment.epoch)
         self._title = f"{folder.name}: {len(plan.islands)} islands"
         self._live = Live(self._table(-1, ()), console=Console(file=self._stream), auto_refresh=False)
         self._live.start()
@@ -142,8 +154,8 @@ class LiveTable:
     def _table(self, epoch: int, rows: tuple[IslandSummary, ...]) -> Table:
         from rich.table import Table
 
-        left = time_left(epoch, self._epochs, time.perf_counter() - self._started)
-        caption = f"epoch {max(epoch, 0)}/{self._epochs}, time left {'?' if left is None else clock_text(left)}"
+        caption = f"epoch {max(epoch, 0)}/{self._epochs}, time left "
+        caption += "?" if epoch < 0 else clock_text(self._pace.left(epoch))
         table = Table(title=self._title, caption=caption)
         for heading in ("island", "generation", "best", "mean", "invalid", "migrants"):
             table.add_column(heading, justify="left" if heading == "island" else "right")

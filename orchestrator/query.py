@@ -79,9 +79,12 @@ def write_parquet(log: Path, sql: str, path: Path) -> None:
 
     with connect(log) as connection:
         try:
-            table = connection.execute(sql).to_arrow_table()
+            relation = connection.sql(sql)
+            table = None if relation is None else relation.to_arrow_table()
         except duckdb.Error as error:
             raise _not_understood(error) from None
+    if table is None:
+        raise InputError("SQL", "a query with an answer", "a statement without one", "start with 'select'")
     pq.write_table(table, path, compression="zstd")
 
 

@@ -141,8 +141,8 @@ def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str |
     started, clock = datetime.now(UTC), time.perf_counter()
     plan, seconds = prepare(loaded)
     path = choose_path(runs_dir, name or loaded.experiment.name, explicit=name is not None)
-    stop = threading.Event()
-    with _interruptible(stop, backend):
+    stop, closing = threading.Event(), threading.Event()
+    with _interruptible(stop, closing, backend):
         try:
             hosts = backend.open()
             facts = {"backend": loaded.experiment.backend, "hosts": hosts, "islands": len(plan.islands)}
@@ -153,6 +153,7 @@ def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str |
                 _conclude_badly(folder)
                 raise
         finally:
+            closing.set()
             progress.close()
             backend.close()
 
@@ -164,14 +165,19 @@ def _conclude_badly(folder: RunFolder) -> None:
 
 
 @contextmanager
-def _interruptible(stop: threading.Event, backend: Backend) -> Iterator[None]:
-    """Let the first Ctrl-C (or SIGTERM) ask for a clean stop, and the second break off."""
+def _interruptible(stop: threading.Event, closing: threading.Event, backend: Backend) -> Iterator[None]:
+    """Let the first Ctrl-C (or SIGTERM) ask for a clean stop, and the second break off.
+
+    Once all is being closed, which takes a second or two, no further one is heard: it would leave Ray's processes.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
 
     def asked(number: int, frame: FrameType | None) -> None:
         del number, frame
+        if closing.is_set():
+            return
         if stop.is_set():
             raise KeyboardInterrupt
         stop.set()

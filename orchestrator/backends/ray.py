@@ -265,7 +265,12 @@ def _settle_environment(*, local: bool) -> None:
     A local Ray gets a token of its own through the environment: without one it would be open to other users of the
     machine, or leave a token file in the home folder.
     """
-    settings = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
+    settings = {
+        "RAY_USAGE_STATS_ENABLED": "0",
+        "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
+        # A host that is asked to stop fails its call on purpose; the boxes of that call are never fetched.
+        "RAY_IGNORE_UNHANDLED_ERRORS": "1",
+    }
     if local:
         settings |= dict.fromkeys(THREAD_VARIABLES, "1")
         if not any(name in os.environ for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import sys
 from pathlib import Path
@@ -53,7 +54,9 @@ def command(
     for note in loaded.notes:
         progress.note(f"note: {note}")
     try:
-        outcome = run_experiment(loaded, backend, runs_dir, name, progress)
+        # What Ray and plug-ins print goes to stderr: stdout is for progress or the JSON object alone.
+        with contextlib.redirect_stdout(sys.stderr):
+            outcome = run_experiment(loaded, backend, runs_dir, name, progress)
     except RunFailedError as error:
         raise Complaint(str(error), 1) from None
     if as_json:

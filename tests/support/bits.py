@@ -40,7 +40,7 @@ class BitsGrowth(Settings):
     fail_ending: str = ""
     raise_ending: str = ""
     delay_ms: float = 0.0
-    die_in_epoch_file: str | None = None
+    only_in_driver: bool = False
 
 
 class BitsBiology:
@@ -51,6 +51,8 @@ class BitsBiology:
         for name in self.goals:
             if name not in CRITERIA:
                 raise InputError(spec.where("fitness", name), "a criterion", f"'{name}'", near(name, list(CRITERIA)))
+        if self.growth.only_in_driver and "RAY_RAYLET_PID" in os.environ:
+            raise InputError(spec.where("growth"), "a machine with the plug-in's data", "this one")
         self.clock = clock
         meaning = [self.growth.model_dump(mode="json"), {k: v.model_dump(mode="json") for k, v in self.goals.items()}]
         self.scoring = hashlib.sha256(json.dumps(meaning, sort_keys=True).encode()).hexdigest()
@@ -75,9 +77,6 @@ class BitsBiology:
 
     def evaluate(self, genotype: Bits) -> Evaluation:
         started = self.clock()
-        trouble = self.growth.die_in_epoch_file
-        if trouble and Path(trouble).exists():
-            os._exit(17)
         if self.growth.delay_ms:
             time.sleep(self.growth.delay_ms / 1e3)
         word = "".join(map(str, genotype))

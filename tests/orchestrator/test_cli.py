@@ -1,0 +1,235 @@
+"""The command line: exit codes, one clear message, and JSON on the last line."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from experiments import bits, run, write
+from orchestrator.cli import COMMANDS, main
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def atoll(*arguments: object):
+    return CliRunner().invoke(main, [str(argument) for argument in arguments])
+
+
+def last_json(result) -> dict:
+    return json.loads(result.stdout.splitlines()[-1])
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    return run(tmp_path_factory.mktemp("cli")).folder
+
+
+def refused(result, *parts: str) -> None:
+    """Bad input: exit 2, one line on stderr, nothing on stdout, no traceback."""
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    assert len(result.stderr.strip().splitlines()) == 1
+    assert result.stderr.startswith("atoll: ")
+    for part in parts:
+        assert part in result.stderr
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_help_with_an_example(name) -> None:
+    result = atoll(name, "--help")
+    assert result.exit_code == 0
+    assert f"atoll {name}" in result.stdout.split("Example:")[1]
+
+
+def test_help_lists_the_commands_and_imports_none_of_the_heavy_libraries() -> None:
+    code = (
+        "import sys\nfrom orchestrator.cli import main\n"
+        "try:\n    main(['--help'])\nexcept SystemExit as end:\n    assert end.code == 0\n"
+        "heavy = {'ray', 'numpy', 'numba', 'pyarrow', 'duckdb', 'pydantic', 'rich', 'trimesh'} & sys.modules.keys()\n"
+        "assert not heavy, heavy\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=True)
+    for name, text in COMMANDS.items():
+        assert name in result.stdout
+        assert text in result.stdout
+
+
+def test_a_run_prints_progress_and_says_what_to_do_next(tmp_path) -> None:
+    result = atoll("run", write(tmp_path, bits()), "--runs-dir", tmp_path / "runs", "--name", "mine")
+    assert result.exit_code == 0
+    assert "epoch 4/4  generation 12  best " in result.stdout
+    assert "atoll query" in result.stdout
+    assert (tmp_path / "runs" / "mine" / "manifest.json").exists()
+
+
+def test_a_run_with_json_keeps_stdout_for_it(tmp_path) -> None:
+    path = write(tmp_path, bits())
+    result = atoll("run", path, "--runs-dir", tmp_path, "--seed", 9, "--set", "generations=4", "--json")
+    assert result.exit_code == 0
+    (line,) = result.stdout.splitlines()
+    told = json.loads(line)
+    assert told.keys() >= {"run", "status", "islands", "generations", "evaluations", "best", "wall_s"}
+    assert told["best"].keys() == {"island", "id", "fitness"}
+    assert (told["status"], told["islands"], told["generations"]) == ("finished", 4, 6)
+    assert "epoch 2/2" in result.stderr
+    assert json.loads((Path(told["run"]) / "manifest.json").read_text(encoding="utf-8"))["seed"] == 9
+
+
+def test_bad_input_is_one_message_and_exit_code_two(tmp_path, done) -> None:
+    path = write(tmp_path, bits())
+    refused(atoll("run", tmp_path / "none.yaml"), "none.yaml: expected a YAML file, got no such file")
+    refused(atoll("run", path, "--set", "epok=3"), "--set epok", "did you mean 'epoch'?")
+    refused(atoll("run", path, "--name", "../x", "--runs-dir", tmp_path), "--name")
+    refused(atoll("run", path, "--address", "x:1"), "--address")
+    refused(atoll("run", path, "--set", "backend=ray", "--address", "nonsense"), "--address: expected host:port")
+    refused(atoll("show", tmp_path), "expected a run's folder")
+    refused(atoll("digest", tmp_path / "none"), "expected a run's folder")
+    refused(atoll("query", done, "selec 1"), "SQL", "selec")
+    refused(atoll("query", done, "select * from individual"), "individuals")
+    refused(atoll("replay", done, "--id", 10**15), "--id: expected an individual of the log")
+    refused(atoll("export", done, "--format", "doc", "-o", tmp_path / "forms"), "--format")
+    refused(atoll("grow", tmp_path / "none.hemls"), "expected a rule file, got no such file")
+    for suffix in (".tl", ".blocks", ".plan", ".body.json"):
+        refused(atoll("grow", f"x{suffix}"), f"'{suffix}', which comes later")
+        refused(atoll("check", f"x{suffix}"), f"'{suffix}', which comes later")
+    refused(atoll("grow", "x.txt"), "expected a rule file (.hemls)")
+    refused(atoll("check", tmp_path / "none.txt"), "no such file")
+    assert atoll("run").exit_code == 2
+    assert atoll("bogus").exit_code == 2
+
+
+def test_check_accepts_what_runs_and_refuses_what_would_not(tmp_path) -> None:
+    path = write(tmp_path, bits())
+    assert last_json(atoll("check", path, "--json")) == {"ok": True, "kind": "experiment"}
+    environment = tmp_path / "site.env.yaml"
+    environment.write_text("gravity: [0, 0, -1]\n", encoding="utf-8")
+    assert last_json(atoll("check", environment, "--json")) == {"ok": True, "kind": "environment"}
+    rules = ROOT / "experiments" / "systems" / "square.hemls"
+    assert last_json(atoll("check", rules, "--json")) == {"ok": True, "kind": "rules"}
+    grammar = ROOT / "genome" / "grammars" / "genr8.bnf"
+    assert last_json(atoll("check", grammar, "--json")) == {"ok": True, "kind": "grammar"}
+    environment.write_text("gravity: [0, 0, .nan]\n", encoding="utf-8")
+    refused(atoll("check", environment), "gravity")
+    refused(atoll("check", path, "--set", "channels.0.count=40"), "at most a deme's members")
+    refused(atoll("check", path, "--set", "backend=ray", "--set", "hosts=99999"), "hosts")
+
+
+def test_digest_show_and_schema(done, tmp_path) -> None:
+    told = last_json(atoll("digest", done, "--json"))
+    assert len(told["digest"]) == 64
+    assert told["rows"] == 45 + 12 * 41 + 4 * 13 + 25 + int(_one(done, "select count(*) from evaluations"))
+    shown = last_json(atoll("show", done, "--json"))
+    assert (shown["status"], shown["generations"]) == ("finished", 12)
+    assert [row["island"] for row in shown["islands"]] == ["north-0", "north-1", "north-2", "south"]
+    assert shown["evaluations"] == int(_one(done, "select sum(evaluations)::int from generations"))
+    assert shown["best"]["fitness"] == _one(done, "select max(fitness) from individuals")
+    assert "north-2" in atoll("show", done).stdout
+    schema = json.loads(atoll("schema").stdout)
+    import jsonschema
+
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(bits(), schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(bits(epok=3), schema)
+
+
+def _one(done, sql: str):
+    return last_json(atoll("query", done, sql, "--json"))["rows"][0].popitem()[1]
+
+
+def test_query_in_every_format(done, tmp_path) -> None:
+    import pyarrow.parquet as pq
+
+    columns = "island, count(*) as bred, max(fitness) as best, arg_min(scores, id) as scores"
+    sql = f"select {columns} from individuals group by 1 order by 1"
+    found = last_json(atoll("query", done, sql, "--format", "json"))["rows"]
+    assert found == last_json(atoll("query", done, sql, "--json"))["rows"]
+    assert [row["island"] for row in found] == ["north-0", "north-1", "north-2", "south"]
+    assert found[0]["scores"].keys() == {"edges", "ones", "zeros"}
+    table = list(csv.DictReader(io.StringIO(atoll("query", done, sql, "--format", "csv").stdout)))
+    assert [int(row["bred"]) for row in table] == [row["bred"] for row in found]
+    assert [float(row["best"]) for row in table] == [row["best"] for row in found]
+    lines = atoll("query", done, sql).stdout.splitlines()
+    assert lines[0].split() == ["island", "bred", "best", "scores"]
+    assert len(lines) == 6
+    path = tmp_path / "answer.parquet"
+    assert atoll("query", done, sql, "--format", "parquet", "-o", path).exit_code == 0
+    assert pq.read_table(path)["bred"].to_pylist() == [row["bred"] for row in found]
+    assert atoll("query", done, "select 1 where false").exit_code == 0
+    assert last_json(atoll("query", done, "select 1.0 / 0 as x, 'nan'::double as y", "--json")) == {
+        "rows": [{"x": None, "y": None}]
+    }
+
+
+def test_a_run_without_a_log_yet_answers_with_empty_tables(tmp_path) -> None:
+    (tmp_path / "young").mkdir()
+    (tmp_path / "young" / "manifest.json").write_text('{"status": "running"}', encoding="utf-8")
+    for table in ("individuals", "evaluations", "generations", "migrations", "events"):
+        assert last_json(atoll("query", tmp_path / "young", f"select count(*) as n from {table}", "--json")) == {
+            "rows": [{"n": 0}]
+        }
+    assert last_json(atoll("show", tmp_path / "young", "--json"))["islands"] == []
+    refused(atoll("export", tmp_path / "young", "-o", tmp_path / "forms"))
+
+
+def test_replay_gives_the_same_and_exits_with_one_where_it_does_not(done, tmp_path) -> None:
+    import shutil
+
+    best = last_json(atoll("show", done, "--json"))["best"]
+    told = last_json(atoll("replay", done, "--id", best["id"], "--json"))
+    assert (told["id"], told["fitness"], told["same"]) == (best["id"], best["fitness"], True)
+    assert "(the same)" in atoll("replay", done, "--id", best["id"]).stdout
+    forged = tmp_path / "forged"
+    shutil.copytree(done, forged)
+    text = (forged / "experiment.yaml").read_text(encoding="utf-8")
+    (forged / "experiment.yaml").write_text(text.replace("weight: 1.0", "weight: 2.0"), encoding="utf-8")
+    result = atoll("replay", forged, "--id", best["id"], "--json")
+    assert result.exit_code == 1
+    assert last_json(result)["same"] is False
+
+
+def test_export_writes_the_best_and_those_asked_for(done, tmp_path) -> None:
+    best = last_json(atoll("show", done, "--json"))["best"]
+    told = last_json(atoll("export", done, "--best", 2, "--id", 0, "--format", "txt", "-o", tmp_path / "x", "--json"))
+    names = [Path(file).name for file in told["files"]]
+    assert names[0] == "north-0-0.txt"
+    assert f"{best['island']}-{best['id']}.txt" in names
+    assert len(names) == 3
+    assert all(Path(file).is_file() for file in told["files"])
+
+
+def test_grow_measures_the_square_and_writes_it(tmp_path) -> None:
+    rules = ROOT / "experiments" / "systems" / "square.hemls"
+    told = last_json(atoll("grow", rules, "--steps", 3, "--json", "-o", tmp_path / "square.obj"))
+    assert (told["vertices"], told["edges"], told["faces"]) == (81, 144, 64)
+    assert told["size"] == pytest.approx(2 * 1.5**3)
+    assert told["undulation"] == pytest.approx(0, abs=1e-12)
+    assert told["subdivisions"] == pytest.approx(81 / 144)
+    assert told.keys() >= {"smoothness", "soft_boundaries", "symmetry", "bounds"}
+    assert (tmp_path / "square.obj").read_text(encoding="utf-8").count("\nf ") == 64
+    refused(atoll("grow", rules, "--set", "scal=2"), "did you mean 'scale'?")
+    refused(atoll("grow", rules, "--steps", -1), "steps")
+    refused(atoll("grow", rules, "-o", tmp_path / "square.doc"), "-o")
+    refused(atoll("grow", rules, "--time", 2), "--time")
+    over = atoll("grow", rules, "--steps", 9, "--set", "max_elements=1000")
+    assert over.exit_code == 1
+    assert "did not grow: budget" in over.stderr
+
+
+def test_a_failed_run_exits_with_one_and_says_why(tmp_path, monkeypatch) -> None:
+    from islands.host import Host
+
+    monkeypatch.setattr(Host, "finish", lambda self, forms: (_ for _ in ()).throw(OSError(28, "No space left")))
+    result = atoll("run", write(tmp_path, bits()), "--runs-dir", tmp_path, "--json")
+    assert result.exit_code == 1
+    assert last_json(result)["status"] == "failed"
+    assert "No space left" in result.stderr

@@ -1,0 +1,175 @@
+"""On Ray: the same digest whatever the hosts, and clean ends. Each of these starts a local Ray, which takes seconds."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from experiments import bits, run, write
+from orchestrator.backends.ray import HOSTS_PER_CPU, hosts_for, machine_cpus
+from orchestrator.digest import digest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def start(folder: Path, data: dict, *arguments: str, hash_seed: str = "random") -> subprocess.Popen:
+    """Start the command line in a process group of its own, in another folder than the project's."""
+    write(folder, data)
+    kept = {key: value for key, value in os.environ.items() if not key.startswith("RAY_")}
+    environment = {
+        **kept,
+        "PYTHONPATH": os.pathsep.join([str(ROOT), str(ROOT / "tests" / "support")]),
+        "PYTHONHASHSEED": hash_seed,
+        "ATOLL_TEST": str(folder),
+    }
+    command = [sys.executable, "-m", "orchestrator.cli", "run", "bits.yaml", "--runs-dir", "runs", "--json", *arguments]
+    return subprocess.Popen(
+        command,
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def ended(process: subprocess.Popen, code: int) -> tuple[dict, str]:
+    """Wait for the end; nothing but the JSON is on stdout, no traceback on stderr, and no process of it is left."""
+    try:
+        out, err = process.communicate(timeout=120)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        raise
+    assert process.returncode == code, err
+    assert "Traceback" not in err
+    assert len(out.splitlines()) == 1, out
+    return json.loads(out), err
+
+
+@pytest.fixture
+def clean(tmp_path):
+    """No process that the test started outlives it by more than a moment."""
+    yield
+    for _ in range(50):
+        left = [process for process in psutil.process_iter() if _belongs(process, str(tmp_path))]
+        if not left:
+            return
+        time.sleep(0.2)
+    raise AssertionError(left)
+
+
+def _belongs(process: psutil.Process, folder: str) -> bool:
+    try:
+        return process.environ().get("ATOLL_TEST", "").startswith(folder)
+    except psutil.Error:
+        return False
+
+
+@pytest.mark.ray
+def test_the_digest_is_the_same_on_any_number_of_hosts(tmp_path, clean) -> None:
+    """In this process, and on 1, 2 and 4 hosts, under different hash seeds."""
+    whole = digest(run(tmp_path).folder / "log")
+    assert whole[1] > 500
+    for hosts in (1, 2, 4):
+        folder = tmp_path / str(hosts)
+        folder.mkdir()
+        sets = ["--set", "backend=ray", "--set", f"hosts={hosts}"]
+        told, _ = ended(start(folder, bits(), *sets, hash_seed=str(hosts)), 0)
+        manifest = json.loads((Path(told["run"]) / "manifest.json").read_text(encoding="utf-8"))
+        assert (manifest["status"], manifest["hosts"]) == ("finished", hosts)
+        assert digest(Path(told["run"]) / "log") == whole
+        files = list((Path(told["run"]) / "log" / "generations").iterdir())
+        assert len({path.name.split("-i")[1] for path in files}) == hosts
+
+
+def slow() -> dict:
+    data = bits(backend="ray", hosts=2, epochs=1000)
+    data["defaults"]["growth"] = {"delay_ms": 5.0}
+    return data
+
+
+def until_settled(folder: Path, process: subprocess.Popen) -> None:
+    """Wait until the run has written its first generations."""
+    for _ in range(600):
+        if list(folder.glob("runs/bits/log/generations/*.parquet")):
+            return
+        assert process.poll() is None, process.communicate()
+        time.sleep(0.1)
+    raise AssertionError("no generation within a minute")
+
+
+@pytest.mark.ray
+def test_ctrl_c_stops_cleanly(tmp_path, clean) -> None:
+    process = start(tmp_path, slow())
+    until_settled(tmp_path, process)
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: every process of the group gets it
+    told, _ = ended(process, 130)
+    assert told["status"] == "stopped"
+    manifest = json.loads((tmp_path / "runs/bits/manifest.json").read_text(encoding="utf-8"))
+    assert manifest["status"] == "stopped"
+    assert manifest["ended"]
+    assert list((tmp_path / "runs/bits/forms").iterdir())
+
+
+@pytest.mark.ray
+def test_a_host_that_dies_fails_the_run_with_its_name(tmp_path, clean) -> None:
+    process = start(tmp_path, slow())
+    until_settled(tmp_path, process)
+    hosts = [child for child in psutil.Process(process.pid).children(recursive=True) if _holds_islands(child)]
+    assert hosts
+    hosts[0].kill()
+    told, err = ended(process, 1)
+    assert told["status"] == "failed"
+    assert "died and could not finish epoch" in err
+    assert json.loads((tmp_path / "runs/bits/manifest.json").read_text(encoding="utf-8"))["status"] == "failed"
+
+
+def _holds_islands(process: psutil.Process) -> bool:
+    try:
+        return process.cmdline()[:1] != [] and process.cmdline()[0].startswith("ray::Host")
+    except psutil.Error:
+        return False
+
+
+@pytest.mark.ray
+def test_a_plug_in_that_fails_on_the_host_leaves_no_folder(tmp_path, clean) -> None:
+    data = bits(backend="ray", hosts=1)
+    data["islands"]["north"]["growth"]["only_in_driver"] = True
+    process = start(tmp_path, data)
+    out, err = process.communicate(timeout=120)
+    assert (process.returncode, out) == (1, "")
+    assert "host 0 could not start: " in err
+    assert "Traceback" not in err
+    assert list((tmp_path / "runs").iterdir()) == []
+
+
+def test_an_unreachable_cluster_is_told_at_once(tmp_path) -> None:
+    started = time.monotonic()
+    process = start(tmp_path, bits(backend="ray"), "--address", "127.0.0.1:9")
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (1, "")
+    assert "no Ray cluster at 127.0.0.1:9" in err
+    assert "Traceback" not in err
+    assert time.monotonic() - started < 30
+    assert not (tmp_path / "runs").exists()
+
+
+def test_hosts_are_as_many_as_there_is_room_and_use_for() -> None:
+    from genome.errors import InputError
+
+    assert hosts_for("auto", 100, 8) == 8
+    assert hosts_for("auto", 3, 8) == 3
+    assert hosts_for(5, 3, 8) == 3
+    assert hosts_for(8, 100, 2) == 2 * HOSTS_PER_CPU
+    with pytest.raises(InputError, match="expected at most 4 hosts on 1 CPU, got 5"):
+        hosts_for(5, 2, 1)
+    assert 1 <= machine_cpus() <= (os.cpu_count() or 1)
