@@ -112,7 +112,7 @@ class TestSymmetry:
         form = surface([(0, 0, 0), (1, 1e-8, 0), (2, 0, 1000)], [])
         assert symmetry(form, HERE) == 1
 
-    @pytest.mark.parametrize("far", [0, 1e6, -1e9, 0.1])
+    @pytest.mark.parametrize("far", [0, 1e6, -1e9, 0.1, 2.0**50 + 1])
     def test_rounding_far_from_the_origin_unbalances_nothing(self, far):
         form = grid(6)
         assert symmetry(moved(form, form.vertices + np.array([far, -far, 0])), HERE) == 1
