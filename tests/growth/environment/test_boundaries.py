@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from solids import BOXES, CYLINDERS, SHAPES, SPHERES, body, bumpy, distances, environment, points, winding_numbers
 
 from growth.environment import Environment
+from growth.environment.boundaries.mesh import RAYS
 from growth.environment.boundaries.protocol import Boundary
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -254,6 +255,42 @@ def test_a_vertex_on_a_meshs_corner_edge_or_face_stays_or_goes_free(seed: int) -
     stuck = env.move(outward, np.zeros_like(outward))
     assert (np.linalg.norm(stuck - outward, axis=1) <= 1e-4).all()
     np.testing.assert_array_equal(env.move(outward, 2 * outward), 2 * outward)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_rays_through_corners_and_edges_do_not_mislead_the_winding(seed: int) -> None:
+    vertices, triangles = bumpy(seed, 1)
+    mesh = body(vertices, triangles)
+    aims = np.concatenate([vertices, vertices[triangles][:, :2].mean(axis=1)])
+    for way in RAYS:
+        for back in (0.125, 0.5, 1.0):
+            at = np.ascontiguousarray(aims - back * way)
+            winding = winding_numbers(vertices, triangles, at)
+            clear = np.abs(winding - 0.5) > 0.4
+            np.testing.assert_array_equal(mesh.inside(at)[clear], winding[clear] > 0.5)
+
+
+def test_a_start_a_rounding_error_within_does_not_walk_through() -> None:
+    import trimesh
+
+    box = trimesh.creation.box(extents=(2, 2, 2))
+    for env in (
+        environment({"shape": "box", "at": [0, 0, 0], "size": [2, 2, 2]}),
+        environment({"shape": "sphere", "at": [0, 0, 0], "radius": 1}),
+        environment({"shape": "cylinder", "at": [0, 0, 0], "radius": 1, "height": 2}),
+        _mesh_environment(body(np.array(box.vertices), np.array(box.faces, dtype=np.int32))),
+    ):
+        out = env.move([[0, 0, 1 - 1e-9]], [[0, 0, -5]])
+        np.testing.assert_allclose(out, [[0, 0, 1]], atol=1e-5)
+        assert not env.inside(out).any()
+
+
+@settings(max_examples=30, deadline=None)
+@given(SHAPES, SEEDS)
+def test_even_a_way_within_a_solid_ends_outside_it(shape: dict[str, Any], seed: int) -> None:
+    env = environment(shape)
+    at = points(seed, spread=1.0)
+    assert not env.inside(env.move(at, at + 0.1 * points(seed + 1))).any()
 
 
 def test_an_edge_that_is_hit_exactly_lets_nothing_through() -> None:
