@@ -129,8 +129,34 @@ def _outward(vertices: Floats, triangles: Triangles, where: str) -> tuple[Floats
     if len(triangles) == 0:
         raise InputError(where, "a mesh with a volume", "faces without area")
     corners = vertices[triangles] - vertices.mean(axis=0)
-    volume = float(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum()) / 6.0
+    volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
     size = float(np.ptp(vertices, axis=0).max())
-    if not abs(volume) > 1e-12 * size**3:
+    if not abs(volumes.sum()) > 1e-12 * size**3:
         raise InputError(where, "a mesh with a volume", "a flat one")
-    return vertices, np.ascontiguousarray(triangles[:, ::-1]) if volume < 0.0 else triangles
+    if volumes.sum() < 0.0:
+        triangles, volumes = triangles[:, ::-1], -volumes
+    turned = _inside_out(vertices, triangles, volumes)
+    return vertices, np.ascontiguousarray(np.where(turned[:, None], triangles[:, ::-1], triangles))
+
+
+def _inside_out(vertices: Floats, triangles: Triangles, volumes: Floats) -> NDArray[np.bool_]:
+    """Say which faces (t,) belong to separate bodies whose fronts face inward; a shell within another is a cavity."""
+    part = np.arange(len(vertices))
+    while True:
+        lowest = part.copy()
+        np.minimum.at(lowest, triangles.reshape(-1), np.repeat(part[triangles].min(axis=1), 3))
+        lowest = lowest[lowest]
+        if (lowest == part).all():
+            break
+        part = lowest
+    parts, owner = np.unique(part, return_inverse=True)
+    owner = owner.reshape(-1)
+    volume = np.bincount(owner[triangles[:, 0]], weights=volumes, minlength=len(parts))
+    low, high = np.full((len(parts), 3), np.inf), np.full((len(parts), 3), -np.inf)
+    np.minimum.at(low, owner, vertices)
+    np.maximum.at(high, owner, vertices)
+    solid = volume > 0.0
+    for index in np.flatnonzero(~solid):
+        around = (low[volume > 0.0] <= low[index]).all(axis=1) & (high[volume > 0.0] >= high[index]).all(axis=1)
+        solid[index] = around.any()
+    return np.asarray(~solid[owner[triangles[:, 0]]])

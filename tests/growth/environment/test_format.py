@@ -196,6 +196,23 @@ def test_a_mesh_is_scaled_then_turned_then_moved_and_inverted_ones_are_put_right
     np.testing.assert_allclose(env.move([[20, 0.1, 0.2]], [[10, 0.1, 0.2]]), [[11, 0.1, 0.2]], atol=1e-5)
 
 
+def test_a_body_beside_another_is_put_right_too_and_a_cavity_stays_one(tmp_path: Path) -> None:
+    import trimesh
+
+    room, hole, shed = (trimesh.creation.box(extents=(side, side, side)) for side in (4, 2, 1))
+    shed.apply_translation([5, 0, 0])
+    for part in (hole, shed):
+        part.invert()
+    for inverted in (False, True):
+        whole = trimesh.util.concatenate([room, hole, shed])
+        if inverted:
+            whole.invert()
+        whole.export(tmp_path / "site.ply")
+        env = environment_from({"boundaries": [{"mesh": "site.ply"}]}, "test", tmp_path)
+        np.testing.assert_array_equal(env.inside([[1.5, 0, 0], [0.5, 0, 0], [5, 0.2, 0], [3, 0, 0]]), [1, 0, 1, 0])
+        np.testing.assert_allclose(env.move([[9, 0.1, 0.2]], [[5, 0.1, 0.2]]), [[5.5, 0.1, 0.2]], atol=1e-4)
+
+
 def _digest(base: Path = Path(), **keys: Any) -> str:
     return environment_from(keys, "test", base).digest
 
