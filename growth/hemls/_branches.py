@@ -19,7 +19,7 @@ Flags = NDArray[np.bool_]
 
 EXTERIOR = -1
 DIRECTION = 1e-9
-"""Directions nearer to each other than this, in quarter turns, are one."""
+"""Directions nearer to each other than this, in the measure of ``_turn``, are one."""
 TIE = 1e-6
 """Angles are compared to this many degrees."""
 
@@ -61,15 +61,18 @@ def _wedge(
     and several corners hold it, the first one counter-clockwise from ``first`` counts.
     """
     corner, found = first, -1
+    ex, ey, ez = _leaving(points, origin, first)
+    turn = _turn(up, dx, dy, dz, ex, ey, ez)
     while True:
-        ax, ay, az = _leaving(points, origin, corner)
-        turn = _turn(up, ax, ay, az, dx, dy, dz)
         if 0.0 <= turn < DIRECTION or turn > 4.0 - DIRECTION:
             return -2
         following = prev[corner] ^ 1
-        if found < 0 and turn >= 0.0 and turn < _width(points, origin, corner, following, up):
+        ex, ey, ez = _leaving(points, origin, following)
+        beyond = _turn(up, dx, dy, dz, ex, ey, ez)
+        # Measured from the direction, edges that follow each other turn on, but for the two that have it in between.
+        if found < 0 and turn >= 0.0 and (0.0 <= beyond < turn - DIRECTION or following == corner):
             found = corner
-        corner = following
+        corner, turn = following, beyond
         if corner == first:
             return found
 

@@ -134,7 +134,8 @@ class Rewriting:
         # Distances that differ by rounding alone are equal, so that ids decide and not the last bit.
         steps = np.rint(span / (size * COINCIDENT)).astype(np.int64)
         ids = m.origin[b.corner[first]].astype(np.int64) * m.vertices + m.origin[b.corner[second]]
-        best = np.lexsort((ids, steps, bend))
+        # Several pairs can have the same ends: then the label decides, then the order in which branches were drawn.
+        best = np.lexsort((second, first, b.label[first], ids, steps, bend))
         m.reserve(m.vertices, m.edges + b.count // 2)
         alive = np.ones(b.count, dtype=np.bool_)
         m.edges, m.faces = _branches.join(

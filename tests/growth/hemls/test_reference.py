@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from reference_hemls import Map, reference_counts, reference_maps
+from reference_hemls import reference_counts, reference_maps
+from reference_map import Map
 from strategies import systems
 
 from genome.genr8 import Genr8Mapper, Mapped, load_grammar
