@@ -45,8 +45,8 @@ class Outcome:
         How many islands; generations that all of them finished; scorings done until then.
     best
         The best individual at the last such generation: island, id, fitness; ``None`` when all were invalid.
-    wall_s
-        Wall time from start to end.
+    wall_s, startup_s
+        Wall time from start to end, and of it the time until all hosts stood.
     """
 
     folder: Path
@@ -57,6 +57,7 @@ class Outcome:
     evaluations: int
     best: dict[str, Any] | None
     wall_s: float
+    startup_s: float
 
 
 def seconds_of(plan: Plan) -> dict[str, float]:
@@ -210,6 +211,7 @@ class _Drive:
         self.plan = make_plan(self.loaded)
         self.deadlines = _deadlines(self.loaded, self.plan, hosts, seconds)
         self.clock = clock
+        self.stood: float | None = None
         self.latest: tuple[IslandSummary, ...] = ()
         self.evaluations = 0
         self.written = 0
@@ -238,6 +240,8 @@ class _Drive:
                 if isinstance(instruction, machine.Report):
                     self._report(instruction.epoch)
                 else:
+                    if self.stood is None and isinstance(instruction, machine.Advance):
+                        self.stood = time.perf_counter()
                     self.backend.perform(instruction)
 
     def _report(self, epoch: int) -> None:
@@ -256,6 +260,7 @@ class _Drive:
             evaluations=self.evaluations,
             best=best,
             wall_s=round(time.perf_counter() - self.clock, 3),
+            startup_s=round((self.stood or time.perf_counter()) - self.clock, 3),
         )
         if end.status == "failed" and not end.settled:
             remove(self.folder)
@@ -263,7 +268,8 @@ class _Drive:
         self._tell({"finished": "finish", "failed": "failure", "stopped": "stop"}[end.status], {"reason": end.reason})
         facts = {"generations": outcome.generations, "evaluations": outcome.evaluations, "best": best}
         ended = datetime.now(UTC).isoformat(timespec="seconds")
-        self.folder.update(status=end.status, ended=ended, error=end.reason, wall_s=outcome.wall_s, **facts)
+        times = {"wall_s": outcome.wall_s, "startup_s": outcome.startup_s}
+        self.folder.update(status=end.status, ended=ended, error=end.reason, **times, **facts)
         return outcome
 
     def _tell(self, kind: str, detail: dict[str, Any]) -> None:

@@ -70,6 +70,7 @@ def command(
                 "evaluations": outcome.evaluations,
                 "best": outcome.best,
                 "wall_s": outcome.wall_s,
+                "startup_s": outcome.startup_s,
             }
         )
     else:
