@@ -62,8 +62,9 @@ def validated(
     try:
         return model.model_validate(dict(data))
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        raise _translated(model, dict(first), source, prefix, line_of) from None
+        # A misspelt key is also a missing one; the misspelling says more.
+        errors = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
+        raise _translated(model, dict(errors[0]), source, prefix, line_of) from None
 
 
 def describe(value: object) -> str:
@@ -86,7 +87,11 @@ def _where(source: str, path: Path, line_of: Callable[[Path], int | None] | None
 
 
 def _translated(
-    model: type[BaseModel], error: dict[str, Any], source: str, prefix: Path, line_of: Callable[[Path], int | None] | None
+    model: type[BaseModel],
+    error: dict[str, Any],
+    source: str,
+    prefix: Path,
+    line_of: Callable[[Path], int | None] | None,
 ) -> InputError:
     path: Path = prefix + tuple(error["loc"])
     where = _where(source, path, line_of)
