@@ -43,6 +43,7 @@ FRONTS: Final[tuple[Colour, ...]] = (
 """Colours of the surfaces, in turn; their backs are paler."""
 
 LINE: Final = 0.78
+SCATTERED: Final = 0.07
 LINE_WIDTH: Final = 1.15
 BAND: Final = 128
 DEEPEST: Final = 0.1
@@ -272,6 +273,8 @@ def _shaded(stage: _Stage, which: NDArray[np.int32], at: Floats, places: Floats,
     warm, cool, bounce = np.array([1.0, 0.965, 0.9]), np.array([0.93, 0.97, 1.03]), np.array([1.0, 0.98, 0.95])
     light = (0.98 * facing * sunny)[:, None] * warm
     light += (sky * (0.10 + 0.36 * up))[:, None] * cool + (sky * 0.16 * (1.0 - up))[:, None] * bounce
+    # Light that has met a surface before: folds that see neither sun nor sky are dark, not black.
+    light += SCATTERED * (0.7 + 0.3 * normals[:, 2])[:, None] * bounce
     ink = _lines(stage.camera, bodies, which, spots)
     return np.asarray(albedo * light * (1.0 - ink)[:, None])
 
