@@ -88,10 +88,48 @@ HAND = {
         A -> B [ + B ] [ + B ] [ + A ] [ - B ] [ - B ] [ - A ] B
         B -> B [ [ + B ] - A ] A
         Angle 90; BranchAngle 60""",
-    "edges on edges": """A + A + A + A + A + A
-        A -> A [ [ + A ] - A ] A [ [ + A ] - A ] A
+    "joined edges on edges": """~ B + ~ B + A + A + ~ A
+        A -> [ + B ] [ - B ] A
+        B -> ~ A [ + + A ] [ - - A ] A
+        Angle 45; BranchAngle 75""",
+    "regions without area": """A + B + ~ A
+        A -> A & A [ & + A ] [ & - A ] ^ A [ & + A ] [ & - A ]
+        B -> [ + A ] [ - A ] B
+        Angle 15; BranchAngle 80""",
+    "joined edges that leave their corners": """A + B + ~ A + B + ~ B + A
+        B -> [ + B ] [ - B ] A + A - - A + A
+        A -> B [ + B ] [ + B ] [ - B ] [ - B ] A
         Angle 30; BranchAngle 90""",
+    "pairs of branches with the same ends": """A + B + ~ A + B + ~ B + A + B
+        A -> A + B [ & + C ] [ & - C ] - A
+        C -> B [ [ [ [ + B ] + + B ] - B ] - - B ] A [ [ [ [ + B ] + + B ] - B ] - - B ] B
+        B -> A [ + C B ] [ - B C ] B
+        Angle 60; BranchAngle 90""",
+    "a later edge along a branch": """A + B + B + B
+        A -> [ + + C ] A
+        B -> + A [ + + C ] [ + + + C ] [ + C ] - - A
+        Angle 30; BranchAngle 90""",
+    "upright edges at a crossing": """A + B + A + B + B + B
+        A -> B ^ [ + B B ] [ - B ] A & [ - A ] B [ - A ] & A ^ A [ + B ^ B ]
+        B -> B B [ + A ] [ - A ]
+        Angle 90; BranchAngle 90""",
+    "older branches beside newer chains": """~ B + ~ A + A + B
+        A -> A & B [ & + B ] [ & - B ] ^ A [ & + B ] [ & - B ]
+        B -> A & A [ + B [ + B ] ] [ - ~ B [ + B ] ] ^ A [ + B [ + B ] ] [ - ~ B [ + B ] ]
+        A > B -> A [ + B ] [ - B ] B [ + B ] [ - B ] A
+        Angle 90; BranchAngle 90""",
 }
+
+DENSE = (
+    "[ [ + {0} ] - {1} ]",
+    "[ [ [ [ + {0} ] + + {1} ] - {1} ] - - {0} ]",
+    "[ + {0} ] [ + {1} ] [ - {0} ] [ - {1} ]",
+    "[ + {0} {1} ] [ - {1} {0} ]",
+    "[ + {0} [ + {1} ] ] [ - ~ {0} [ + {1} ] ]",
+    "[ & + {0} ] [ \\ - {0} ]",
+    "[ + {0} + {1} + {0} ] [ - {0} ]",
+)
+"""Brackets that leave many branches to join."""
 
 
 def edges_of(m: HalfEdgeMap) -> list[tuple[int, int, int]]:
@@ -173,3 +211,28 @@ def test_systems_that_the_genr8_grammar_writes_grow_alike() -> None:
         if isinstance(mapped, Mapped):
             steps.append(agreed_steps(mapped.text, 3, 500))
     assert steps.count(3) > 50
+
+
+def dense_system(rng: np.random.Generator) -> str:
+    """Write a system whose every edge leaves branches."""
+    labels = "ABC"[: rng.integers(2, 4)]
+
+    def edge() -> str:
+        return ("~ " if rng.random() < 0.2 else "") + labels[rng.integers(len(labels))]
+
+    lines = [" + ".join(edge() for _ in range(rng.integers(3, 8)))]
+    for label in labels:
+        brackets = DENSE[rng.integers(len(DENSE))].format(edge(), edge())
+        turn, back = (("", ""), ("", ""), ("+", "-"), ("&", "^"))[rng.integers(4)]
+        lines.append(f"{label} -> {edge()} {turn} {edge()} {brackets} {back} {edge()}")
+        if rng.random() < 0.3:
+            lines.append(f"{label} > {edge()[-1]} -> {brackets} {edge()} {brackets}")
+    sync = ("", "Sync\n")[rng.integers(2)]
+    angles = f"Angle {rng.choice((15, 30, 45, 60, 90))}\n{sync}BranchAngle {rng.choice((45, 60, 75, 90))}\n"
+    return "\n".join(lines) + "\n" + angles
+
+
+def test_systems_with_many_branches_grow_alike() -> None:
+    rng = np.random.default_rng(1968)
+    steps = [agreed_steps(dense_system(rng), 3, 300) for _ in range(120)]
+    assert steps.count(2) + steps.count(3) > 60
