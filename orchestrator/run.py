@@ -98,8 +98,9 @@ def make_backend(loaded: Loaded, address: str | None) -> Backend:
     InputError
         When the machine has too few CPUs for its hosts, or an address is given to the in-process backend.
     """
+    from orchestrator.backends.cluster import hosts_for, machine_cpus
     from orchestrator.backends.inline import InlineBackend
-    from orchestrator.backends.ray import RayBackend, hosts_for, machine_cpus
+    from orchestrator.backends.ray import RayBackend
 
     experiment = loaded.experiment
     islands = sum(settings.count for settings in experiment.islands.values())

@@ -5,20 +5,15 @@ The driver holds references to boxes and hands them on; it never looks into them
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import math
-import os
-import secrets
-import socket
 import time
 from collections import deque
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Final, final
 
 from genome.errors import InputError
-from islands.host import THREAD_VARIABLES, HostPlan, IslandSummary, StoppedError
+from islands.host import HostPlan, IslandSummary, StoppedError
 from orchestrator.archipelago import (
     Advance,
     AskStop,
@@ -31,46 +26,10 @@ from orchestrator.archipelago import (
     HostReady,
     Spawn,
 )
+from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
 from orchestrator.backends.protocol import Deadlines, RunFailedError
 
-HOSTS_PER_CPU: Final = 4
 OBJECT_STORE_BYTES: Final = 100 * 2**20
-CONNECT_S: Final = 15.0
-
-
-def machine_cpus() -> int:
-    """Give the CPUs that this process may use: the affinity mask, cut down by a control group's quota."""
-    cpus = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
-    with contextlib.suppress(OSError, ValueError):
-        quota, period = Path("/sys/fs/cgroup/cpu.max").read_text(encoding="ascii").split()
-        if quota != "max":
-            cpus = min(cpus, max(1, math.ceil(int(quota) / int(period))))
-    return max(1, cpus)
-
-
-def hosts_for(asked: int | str, islands: int, cpus: int) -> int:
-    """Give how many hosts there will be.
-
-    Parameters
-    ----------
-    asked
-        A number, or ``auto`` for as many as CPUs.
-    islands
-        A host without an island is not made.
-    cpus
-        CPUs at hand.
-
-    Raises
-    ------
-    InputError
-        When more than four hosts for each CPU are asked for.
-    """
-    if isinstance(asked, str):
-        return min(cpus, islands)
-    if asked > HOSTS_PER_CPU * cpus:
-        expected = f"at most {HOSTS_PER_CPU * cpus} hosts on {cpus} CPU{'s' if cpus > 1 else ''}"
-        raise InputError("hosts", expected, str(asked), "set hosts: auto, or run on a larger machine")
-    return min(asked, islands)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,13 +81,13 @@ class RayBackend:
         if self._address is None:
             self._cpus = machine_cpus()
             self._count = hosts_for(self._asked, self._islands, self._cpus)
-        _settle_environment(local=self._address is None)
+        settle_environment(local=self._address is None)
         import ray
 
         if ray.is_initialized():
             raise RunFailedError("Ray is already running in this process; a run needs one of its own")
         if self._address is not None:
-            _reach(self._address)
+            reach(self._address)
         quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": logging.ERROR}
         local: dict[str, Any] = {
             "address": "local",
@@ -257,47 +216,6 @@ def _doing(what: Spawn | Advance | Finish) -> str:
             return f"finish epoch {epoch}"
         case Finish():
             return "write its log"
-
-
-def _settle_environment(*, local: bool) -> None:
-    """Set what Ray reads when it is imported and started, except where the user has set it.
-
-    A local Ray gets a token of its own through the environment: without one it would be open to other users of the
-    machine, or leave a token file in the home folder.
-    """
-    settings = {
-        "RAY_USAGE_STATS_ENABLED": "0",
-        "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
-        # A host that is asked to stop fails its call on purpose; the boxes of that call are never fetched.
-        "RAY_IGNORE_UNHANDLED_ERRORS": "1",
-    }
-    if local:
-        settings |= dict.fromkeys(THREAD_VARIABLES, "1")
-        if not any(name in os.environ for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")):
-            settings |= {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32)}
-    for name, value in settings.items():
-        os.environ.setdefault(name, value)
-
-
-def _reach(address: str) -> None:
-    """Try the address before Ray does, which would wait for minutes.
-
-    Raises
-    ------
-    InputError
-        When the address has no form that Ray takes.
-    RunFailedError
-        When nothing answers there.
-    """
-    if address == "auto" or "://" in address:
-        return
-    host, _, port = address.rpartition(":")
-    if not host or not port.isdecimal():
-        raise InputError("--address", "host:port, ray://host:port or auto", f"'{address}'")
-    try:
-        socket.create_connection((host, int(port)), timeout=CONNECT_S).close()
-    except (OSError, OverflowError) as error:
-        raise RunFailedError(f"no Ray cluster at {address}: {error}; check the address, or start it") from None
 
 
 def _one_line(error: BaseException) -> str:

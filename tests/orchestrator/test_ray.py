@@ -14,7 +14,10 @@ import psutil
 import pytest
 
 from experiments import bits, run, write
-from orchestrator.backends.ray import HOSTS_PER_CPU, hosts_for, machine_cpus
+from genome.errors import InputError
+from orchestrator.backends import cluster
+from orchestrator.backends.cluster import HOSTS_PER_CPU, hosts_for, machine_cpus
+from orchestrator.backends.protocol import RunFailedError
 from orchestrator.digest import digest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -163,9 +166,19 @@ def test_an_unreachable_cluster_is_told_at_once(tmp_path) -> None:
     assert not (tmp_path / "runs").exists()
 
 
-def test_hosts_are_as_many_as_there_is_room_and_use_for() -> None:
-    from genome.errors import InputError
+def test_something_else_at_the_address_is_given_up(monkeypatch) -> None:
+    import socket
 
+    monkeypatch.setattr(cluster, "PROBE_S", 4.0)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        address = f"127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(RunFailedError, match=f"no Ray cluster at {address}: .* within 4 s"):
+            cluster.reach(address)
+    with pytest.raises(InputError, match="--address: expected host:port"):
+        cluster.reach("nonsense")
+
+
+def test_hosts_are_as_many_as_there_is_room_and_use_for() -> None:
     assert hosts_for("auto", 100, 8) == 8
     assert hosts_for("auto", 3, 8) == 3
     assert hosts_for(5, 3, 8) == 3

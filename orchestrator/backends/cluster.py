@@ -1,0 +1,125 @@
+"""Room for hosts: the CPUs of this machine, and whether there is a Ray cluster at an address."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import secrets
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from typing import Final
+
+from genome.errors import InputError
+from islands.host import THREAD_VARIABLES
+from orchestrator.backends.protocol import RunFailedError
+
+HOSTS_PER_CPU: Final = 4
+CONNECT_S: Final = 5.0
+PROBE_S: Final = 20.0
+PROBE: Final = """
+import logging, sys, ray
+try:
+    ray.init(address=sys.argv[1], log_to_driver=False, logging_level=logging.ERROR)
+except Exception as error:
+    sys.exit(str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__)
+"""
+
+
+def machine_cpus() -> int:
+    """Give the CPUs that this process may use: the affinity mask, cut down by a control group's quota."""
+    cpus = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
+    with contextlib.suppress(OSError, ValueError):
+        quota, period = Path("/sys/fs/cgroup/cpu.max").read_text(encoding="ascii").split()
+        if quota != "max":
+            cpus = min(cpus, max(1, math.ceil(int(quota) / int(period))))
+    return max(1, cpus)
+
+
+def hosts_for(asked: int | str, islands: int, cpus: int) -> int:
+    """Give how many hosts there will be.
+
+    Parameters
+    ----------
+    asked
+        A number, or ``auto`` for as many as CPUs.
+    islands
+        A host without an island is not made.
+    cpus
+        CPUs at hand.
+
+    Raises
+    ------
+    InputError
+        When more than four hosts for each CPU are asked for.
+    """
+    if isinstance(asked, str):
+        return min(cpus, islands)
+    if asked > HOSTS_PER_CPU * cpus:
+        expected = f"at most {HOSTS_PER_CPU * cpus} hosts on {cpus} CPU{'s' if cpus > 1 else ''}"
+        raise InputError("hosts", expected, str(asked), "set hosts: auto, or run on a larger machine")
+    return min(asked, islands)
+
+
+def settle_environment(*, local: bool) -> None:
+    """Set what Ray reads when it is imported and started, except where the user has set it.
+
+    A local Ray gets a token of its own through the environment: without one it would be open to other users of the
+    machine, or leave a token file in the home folder.
+    """
+    settings = {
+        "RAY_USAGE_STATS_ENABLED": "0",
+        "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",
+        # A host that is asked to stop fails its call on purpose; the boxes of that call are never fetched.
+        "RAY_IGNORE_UNHANDLED_ERRORS": "1",
+    }
+    if local:
+        settings |= dict.fromkeys(THREAD_VARIABLES, "1")
+        if not any(name in os.environ for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")):
+            settings |= {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32)}
+    for name, value in settings.items():
+        os.environ.setdefault(name, value)
+
+
+def reach(address: str) -> None:
+    """Try the address before the driver does: Ray has no deadline of its own for connecting.
+
+    A socket finds out at once when nothing listens; another process, which can be given up, finds out whether what
+    listens there is a cluster that takes us.
+
+    Raises
+    ------
+    InputError
+        When the address has no form that Ray takes.
+    RunFailedError
+        When no cluster answers there.
+    """
+    if address != "auto" and "://" not in address:
+        _knock(address)
+    try:
+        probe = subprocess.run(  # noqa: S603 - this interpreter, with an address as its argument
+            [sys.executable, "-c", PROBE, address],
+            capture_output=True,
+            text=True,
+            timeout=PROBE_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        text = f"what listens there did not answer as one within {PROBE_S:g} s; check the address"
+        raise RunFailedError(f"no Ray cluster at {address}: {text}") from None
+    if probe.returncode != 0:
+        lines = [line for line in probe.stderr.splitlines() if line.strip()]
+        raise RunFailedError(f"no Ray cluster at {address}: {lines[-1] if lines else 'it refused to connect'}")
+
+
+def _knock(address: str) -> None:
+    """See whether anything listens at ``host:port``."""
+    host, _, port = address.rpartition(":")
+    if not host or not port.isdecimal():
+        raise InputError("--address", "host:port, ray://host:port or auto", f"'{address}'")
+    try:
+        socket.create_connection((host, int(port)), timeout=CONNECT_S).close()
+    except (OSError, OverflowError) as error:
+        raise RunFailedError(f"no Ray cluster at {address}: {error}; check the address, or start it") from None
