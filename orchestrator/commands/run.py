@@ -89,7 +89,8 @@ def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
     click.echo(f"\n{status}: {shown}")
     if best is not None:
         click.echo(f"best: {best['id']} of island {best['island']}, fitness {best['fitness']:.6g}")
-    click.echo(f"forms: {shown}/forms")
+    if (folder / "forms").is_dir():
+        click.echo(f"forms: {shown}/forms")
     click.echo(f"log: {shown}/log (Parquet)")
     click.echo(f"next: atoll show {shown}")
     sql = "select island, max(fitness) from individuals group by island"
