@@ -24,16 +24,18 @@ TIE = 1e-6
 """Angles are compared to this many degrees."""
 
 
-@njit(cache=True)
-def _turn(up: Reals, ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
-    """Give a measure in [0, 4) of the angle from a to b, counter-clockwise about ``up``, that grows with it.
+@njit(cache=True, inline="always")
+def _turn(
+    ux: float, uy: float, uz: float, ax: float, ay: float, az: float, bx: float, by: float, bz: float,
+) -> float:  # fmt: skip
+    """Give a measure in [0, 4) of the angle from a to b, counter-clockwise about u, that grows with it.
 
     A quarter turn counts 1. Only the order of two measures from the same a is used, and this one needs no arc tangent.
-    A direction along ``up`` has no bearing: then it is -1.
+    A direction along u has no bearing: then it is -1.
     """
-    cross = up[0] * (ay * bz - az * by) + up[1] * (az * bx - ax * bz) + up[2] * (ax * by - ay * bx)
-    a_up = ax * up[0] + ay * up[1] + az * up[2]
-    b_up = bx * up[0] + by * up[1] + bz * up[2]
+    cross = ux * (ay * bz - az * by) + uy * (az * bx - ax * bz) + uz * (ax * by - ay * bx)
+    a_up = ax * ux + ay * uy + az * uz
+    b_up = bx * ux + by * uy + bz * uz
     dot = ax * bx + ay * by + az * bz - a_up * b_up
     size = abs(dot) + abs(cross)
     if not size * size > (DIRECTION * (ax * ax + ay * ay + az * az)) * (DIRECTION * (bx * bx + by * by + bz * bz)):
@@ -44,31 +46,32 @@ def _turn(up: Reals, ax: float, ay: float, az: float, bx: float, by: float, bz: 
     return share if cross >= 0.0 else 4.0 + share
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _leaving(points: Reals, origin: Corners, h: int) -> tuple[float, float, float]:
     """Give the direction in which half-edge ``h`` leaves its vertex, not normalised."""
     a, b = origin[h], origin[h ^ 1]
     return points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _wedge(
-    points: Reals, origin: Corners, prev: Corners, first: int, dx: float, dy: float, dz: float, up: Reals,
+    points: Reals, origin: Corners, prev: Corners, first: int, dx: float, dy: float, dz: float, ux: float, uy: float,
+    uz: float,
 ) -> int:  # fmt: skip
     """Give the corner at the origin of half-edge ``first`` that a direction points into.
 
-    -1 for a direction along ``up`` and one that no corner holds, -2 for one along an edge. Where the surface is folded
+    -1 for a direction along u and one that no corner holds, -2 for one along an edge. Where the surface is folded
     and several corners hold it, the first one counter-clockwise from ``first`` counts.
     """
     corner, found = first, -1
     ex, ey, ez = _leaving(points, origin, first)
-    turn = _turn(up, dx, dy, dz, ex, ey, ez)
+    turn = _turn(ux, uy, uz, dx, dy, dz, ex, ey, ez)
     while True:
         if 0.0 <= turn < DIRECTION or turn > 4.0 - DIRECTION:
             return -2
         following = prev[corner] ^ 1
         ex, ey, ez = _leaving(points, origin, following)
-        beyond = _turn(up, dx, dy, dz, ex, ey, ez)
+        beyond = _turn(ux, uy, uz, dx, dy, dz, ex, ey, ez)
         # Measured from the direction, edges that follow each other turn on, but for the two that have it in between.
         if found < 0 and turn >= 0.0 and (0.0 <= beyond < turn - DIRECTION or following == corner):
             found = corner
@@ -78,25 +81,27 @@ def _wedge(
 
 
 @njit(cache=True)
-def _width(points: Reals, origin: Corners, corner: int, following: int, up: Reals) -> float:
+def _width(
+    points: Reals, origin: Corners, corner: int, following: int, ux: float, uy: float, uz: float,
+) -> float:  # fmt: skip
     """Give the measure from an edge to the next: 4 at the end of a chain, 0 for one direction, -1 for no bearing."""
     if following == corner:
         return 4.0
     ax, ay, az = _leaving(points, origin, corner)
     bx, by, bz = _leaving(points, origin, following)
-    width = _turn(up, ax, ay, az, bx, by, bz)
+    width = _turn(ux, uy, uz, ax, ay, az, bx, by, bz)
     # Which of two edges that lie on each other comes first is rounding, not a full turn.
     return 0.0 if width > 4.0 - DIRECTION else width
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _leaving_node(
     i: int, r: int, node: int, m: int, edges: Ints, edge_base: Ints, segment_start: Ints, segment_flip: Flags,
-    chain_out: Ints,
+    outs: Ints,
 ) -> int:  # fmt: skip
     """Give a half-edge that leaves a template's node on the map, -1 where the node was dropped."""
     if node > m:
-        return chain_out[node]
+        return outs[i, node]
     j = min(node, m - 1)
     part = edges[i] if j == 0 else edge_base[i] + j - 1
     flip = 1 if segment_flip[segment_start[r] + j] else 0
@@ -108,26 +113,25 @@ def _leaving_node(
 def draw_chains(
     points: Reals, origin: Corners, nxt: Corners, prev: Corners, face: Corners, label: Corners, made: Flags,
     n_edges: int, edges: Ints, rules: Ints, count: int, segment_start: Ints, segment_flip: Flags, chain_start: Ints,
-    chains: Ints, vertex_base: Ints, edge_base: Ints, frames: Reals, chain_out: Ints, outs: Ints,
+    chains: Ints, vertex_base: Ints, edge_base: Ints, frames: Reals, outs: Ints,
 ) -> int:  # fmt: skip
     """Link the edges of bracketed chains into the regions that they point into.
 
-    ``outs`` (count, widest template) receives for each chained node a half-edge that leaves it, -1 where the chain
-    was dropped since it points into the exterior or along an edge. Gives the new number of edges.
+    ``outs`` (count, widest template), -1 at first, receives for each chained node a half-edge that leaves it; -1
+    stays where the chain was dropped since it points into the exterior or along an edge. Gives the new number of edges.
     """
     for i in range(count):
         r = rules[i]
         m = segment_start[r + 1] - segment_start[r]
-        chain_out[:] = -1
-        up = frames[i, 6:9]
+        ux, uy, uz = frames[i, 6], frames[i, 7], frames[i, 8]
         for c in range(chain_start[r], chain_start[r + 1]):
             start, end, name, flip = chains[c, 0], chains[c, 1], chains[c, 2], chains[c, 3]
-            leaving = _leaving_node(i, r, start, m, edges, edge_base, segment_start, segment_flip, chain_out)
+            leaving = _leaving_node(i, r, start, m, edges, edge_base, segment_start, segment_flip, outs)
             if leaving < 0:
                 continue
             a, b = origin[leaving], vertex_base[i] + end - 2
             dx, dy, dz = points[b, 0] - points[a, 0], points[b, 1] - points[a, 1], points[b, 2] - points[a, 2]
-            corner = _wedge(points, origin, prev, leaving, dx, dy, dz, up)
+            corner = _wedge(points, origin, prev, leaving, dx, dy, dz, ux, uy, uz)
             if corner < 0 or face[corner] == EXTERIOR:
                 continue
             out, back = 2 * n_edges + flip, 2 * n_edges + 1 - flip
@@ -139,8 +143,7 @@ def draw_chains(
             nxt[back], prev[corner] = corner, back
             label[n_edges], made[n_edges] = name, True
             n_edges += 1
-            chain_out[end] = back
-        outs[i] = chain_out
+            outs[i, end] = back
     return n_edges
 
 
@@ -159,21 +162,20 @@ def place_branches(
         r = rules[i]
         m = segment_start[r + 1] - segment_start[r]
         length = math.sqrt(frames[i, 0] ** 2 + frames[i, 1] ** 2 + frames[i, 2] ** 2)
+        ux, uy, uz = frames[i, 6], frames[i, 7], frames[i, 8]
         for b in range(branch_start[r], branch_start[r + 1]):
-            leaving = _leaving_node(i, r, branch_node[b], m, edges, edge_base, segment_start, segment_flip, outs[i])
+            leaving = _leaving_node(i, r, branch_node[b], m, edges, edge_base, segment_start, segment_flip, outs)
             if leaving < 0 or not length > 0.0:
                 continue
-            for axis in range(3):
-                heading[n_branches, axis] = (
-                    headings[b, 0] * frames[i, axis] / length
-                    + headings[b, 1] * frames[i, 3 + axis]
-                    + headings[b, 2] * frames[i, 6 + axis]
-                )
-                branch_up[n_branches, axis] = frames[i, 6 + axis]
-            d = heading[n_branches]
-            found = _wedge(points, origin, prev, leaving, d[0], d[1], d[2], branch_up[n_branches])
+            ahead, side, above = headings[b, 0] / length, headings[b, 1], headings[b, 2]
+            dx = ahead * frames[i, 0] + side * frames[i, 3] + above * ux
+            dy = ahead * frames[i, 1] + side * frames[i, 4] + above * uy
+            dz = ahead * frames[i, 2] + side * frames[i, 5] + above * uz
+            found = _wedge(points, origin, prev, leaving, dx, dy, dz, ux, uy, uz)
             if found < 0 or face[found] == EXTERIOR:
                 continue
+            heading[n_branches, 0], heading[n_branches, 1], heading[n_branches, 2] = dx, dy, dz
+            branch_up[n_branches, 0], branch_up[n_branches, 1], branch_up[n_branches, 2] = ux, uy, uz
             corner[n_branches], branch_name[n_branches] = found, branch_label[b]
             n_branches += 1
     return n_branches
@@ -192,8 +194,8 @@ def replace_branches(
         h = corner[b]
         if h < moved.shape[0] and moved[h] >= 0:
             h = moved[h]
-        d = heading[b]
-        found = _wedge(points, origin, prev, h, d[0], d[1], d[2], branch_up[b])
+        dx, dy, dz = heading[b, 0], heading[b, 1], heading[b, 2]
+        found = _wedge(points, origin, prev, h, dx, dy, dz, branch_up[b, 0], branch_up[b, 1], branch_up[b, 2])
         corner[b] = found if found >= 0 and face[found] == face[h] else h
         alive[b] = found != -2
 
@@ -211,14 +213,15 @@ def _joint(
     distance = math.sqrt(dx * dx + dy * dy + dz * dz)
     if p == q or not distance > least:
         return 180.0, 180.0, 0.0
-    return _between(heading[a], dx, dy, dz), _between(heading[b], -dx, -dy, -dz), distance
+    at_a = _between(heading[a, 0], heading[a, 1], heading[a, 2], dx, dy, dz)
+    return at_a, _between(heading[b, 0], heading[b, 1], heading[b, 2], -dx, -dy, -dz), distance
 
 
 @njit(cache=True)
-def _between(h: Reals, dx: float, dy: float, dz: float) -> float:
+def _between(hx: float, hy: float, hz: float, dx: float, dy: float, dz: float) -> float:
     """Give the angle between two vectors in degrees, accurate near zero."""
-    cx, cy, cz = h[1] * dz - h[2] * dy, h[2] * dx - h[0] * dz, h[0] * dy - h[1] * dx
-    return math.degrees(math.atan2(math.sqrt(cx * cx + cy * cy + cz * cz), h[0] * dx + h[1] * dy + h[2] * dz))
+    cx, cy, cz = hy * dz - hz * dy, hz * dx - hx * dz, hx * dy - hy * dx
+    return math.degrees(math.atan2(math.sqrt(cx * cx + cy * cy + cz * cz), hx * dx + hy * dy + hz * dz))
 
 
 @njit(cache=True)
@@ -302,9 +305,9 @@ def join(
         chain[b], head[v] = head[v], b
     for i in range(firsts.size):
         a, b = firsts[i], seconds[i]
-        if not (alive[a] and alive[b]) or face[corner[a]] != face[corner[b]]:
-            continue
         at_u, at_w = corner[a], corner[b]
+        if not (alive[a] and alive[b]) or face[at_u] != face[at_w]:
+            continue
         before_u, before_w = prev[at_u], prev[at_w]
         f = face[at_u]
         there, back = 2 * n_edges, 2 * n_edges + 1
@@ -316,55 +319,54 @@ def join(
         face[there] = face[back] = f
         label[n_edges], made[n_edges] = branch_name[a], False
         n_edges += 1
-        _claim_shorter_loop(nxt, face, there, back, n_faces)
+        # Give the new face to the shorter of the two loops, walked in step.
+        p, q = nxt[there], nxt[back]
+        while p != there and q != back:
+            p, q = nxt[p], nxt[q]
+        h = start = back if q == back else there
+        while True:
+            face[h] = n_faces
+            h = nxt[h]
+            if h == start:
+                break
         n_faces += 1
         alive[a] = alive[b] = False
-        _divide_corner(points, origin, prev, corner, heading, branch_up, alive, head, chain, at_u, there)
-        _divide_corner(points, origin, prev, corner, heading, branch_up, alive, head, chain, at_w, back)
+        b = head[origin[at_u]]
+        while b >= 0:
+            if alive[b] and corner[b] == at_u:
+                _divide_corner(points, origin, prev, corner, heading, branch_up, alive, b, at_u, there)
+            b = chain[b]
+        b = head[origin[at_w]]
+        while b >= 0:
+            if alive[b] and corner[b] == at_w:
+                _divide_corner(points, origin, prev, corner, heading, branch_up, alive, b, at_w, back)
+            b = chain[b]
     return n_edges, n_faces
-
-
-@njit(cache=True)
-def _claim_shorter_loop(nxt: Corners, face: Corners, one: int, other: int, new_face: int) -> None:
-    """Give the new face to the shorter of two loops, walked in step; to that of ``other`` where they are equal."""
-    p, q = nxt[one], nxt[other]
-    while p != one and q != other:
-        p, q = nxt[p], nxt[q]
-    start = other if q == other else one
-    h = start
-    while True:
-        face[h] = new_face
-        h = nxt[h]
-        if h == start:
-            return
 
 
 @njit(cache=True)
 def _divide_corner(
     points: Reals, origin: Corners, prev: Corners, corner: Corners, heading: Reals, branch_up: Reals, alive: Flags,
-    head: Ints, chain: Ints, old: int, new: int,
+    b: int, old: int, new: int,
 ) -> None:  # fmt: skip
-    """Move branches of the corner ``old`` that lie beyond the new half-edge ``new`` into the corner of ``new``.
+    """Move a branch of the corner ``old`` that lies beyond the new half-edge ``new`` into the corner of ``new``.
 
     A branch along the new half-edge lies in neither half and goes.
     """
-    following = prev[new] ^ 1
     ox, oy, oz = _leaving(points, origin, old)
     nx, ny, nz = _leaving(points, origin, new)
-    b = head[origin[old]]
-    while b >= 0:
-        if alive[b] and corner[b] == old:
-            up, d = branch_up[b], heading[b]
-            width = _width(points, origin, old, following, up)
-            turn, cut = _turn(up, ox, oy, oz, d[0], d[1], d[2]), _turn(up, ox, oy, oz, nx, ny, nz)
-            if min(width, turn, cut) < 0.0:
-                alive[b] = False
-            else:
-                turn, cut = _beside(turn, width), _beside(cut, width)
-                alive[b] = abs(turn - cut) > DIRECTION
-                if turn > cut:
-                    corner[b] = new
-        b = chain[b]
+    dx, dy, dz = heading[b, 0], heading[b, 1], heading[b, 2]
+    ux, uy, uz = branch_up[b, 0], branch_up[b, 1], branch_up[b, 2]
+    width = _width(points, origin, old, prev[new] ^ 1, ux, uy, uz)
+    turn = _turn(ux, uy, uz, ox, oy, oz, dx, dy, dz)
+    cut = _turn(ux, uy, uz, ox, oy, oz, nx, ny, nz)
+    if min(width, turn, cut) < 0.0:
+        alive[b] = False
+        return
+    turn, cut = _beside(turn, width), _beside(cut, width)
+    alive[b] = abs(turn - cut) > DIRECTION
+    if turn > cut:
+        corner[b] = new
 
 
 @njit(cache=True)

@@ -29,13 +29,15 @@ def face_normals(points: Reals, origin: Corners, face: Corners, n_edges: int, no
     """
     normals[:] = 0.0
     squares = np.zeros(normals.shape[0])
+    # Measured from a vertex of the map, areas keep their digits wherever the map lies.
+    ox, oy, oz = points[0, 0], points[0, 1], points[0, 2]
     for h in range(2 * n_edges):
         f = face[h]
         if f == EXTERIOR:
             continue
         a, b = origin[h], origin[h ^ 1]
-        ax, ay, az = points[a, 0], points[a, 1], points[a, 2]
-        bx, by, bz = points[b, 0], points[b, 1], points[b, 2]
+        ax, ay, az = points[a, 0] - ox, points[a, 1] - oy, points[a, 2] - oz
+        bx, by, bz = points[b, 0] - ox, points[b, 1] - oy, points[b, 2] - oz
         normals[f, 0] += (ay - by) * (az + bz)
         normals[f, 1] += (az - bz) * (ax + bx)
         normals[f, 2] += (ax - bx) * (ay + by)
@@ -48,9 +50,11 @@ def face_normals(points: Reals, origin: Corners, face: Corners, n_edges: int, no
             normals[f] = 0.0
 
 
-@njit(cache=True)
-def _frame(points: Reals, origin: Corners, face: Corners, normals: Reals, edge: int, out: Reals) -> float:
-    """Write the heading (with the edge's length), left and up of an edge into ``out`` (9,)."""
+@njit(cache=True, inline="always")
+def _frame(
+    points: Reals, origin: Corners, face: Corners, normals: Reals, edge: int, frames: Reals, i: int,
+) -> float:  # fmt: skip
+    """Write the heading (with the edge's length), left and up of an edge into ``frames[i]`` (9,)."""
     s, t = origin[2 * edge], origin[2 * edge + 1]
     hx, hy, hz = points[t, 0] - points[s, 0], points[t, 1] - points[s, 1], points[t, 2] - points[s, 2]
     length = math.sqrt(hx * hx + hy * hy + hz * hz)
@@ -62,7 +66,7 @@ def _frame(points: Reals, origin: Corners, face: Corners, normals: Reals, edge: 
     if ux * ux + uy * uy + uz * uz < 1e-18:
         f = max(face[2 * edge], face[2 * edge + 1]) if face[2 * edge] == EXTERIOR else face[2 * edge]
         ux, uy, uz = normals[f, 0], normals[f, 1], normals[f, 2]
-    out[0], out[1], out[2] = hx, hy, hz
+    frames[i, 0], frames[i, 1], frames[i, 2] = hx, hy, hz
     if length > 0.0:
         hx, hy, hz = hx / length, hy / length, hz / length
     else:
@@ -78,8 +82,8 @@ def _frame(points: Reals, origin: Corners, face: Corners, normals: Reals, edge: 
             ux, uy, uz = -hy * hx, 1.0 - hy * hy, -hy * hz
         size = math.sqrt(ux * ux + uy * uy + uz * uz)
     ux, uy, uz = ux / size, uy / size, uz / size
-    out[3], out[4], out[5] = uy * hz - uz * hy, uz * hx - ux * hz, ux * hy - uy * hx
-    out[6], out[7], out[8] = ux, uy, uz
+    frames[i, 3], frames[i, 4], frames[i, 5] = uy * hz - uz * hy, uz * hx - ux * hz, ux * hy - uy * hx
+    frames[i, 6], frames[i, 7], frames[i, 8] = ux, uy, uz
     return length
 
 
@@ -136,54 +140,59 @@ def draw_paths(
     here too but not linked. ``moved`` maps half-edges to those that leave the same corner afterwards. Gives the new
     numbers of vertices and edges.
     """
+    first_edge = n_edges
     for i in range(count):
-        e, r = edges[i], rules[i]
-        length = _frame(points, origin, face, normals, e, frames[i])
+        r, start = rules[i], origin[2 * edges[i]]
+        length = _frame(points, origin, face, normals, edges[i], frames, i)
         vertex_base[i], edge_base[i] = n_vertices, n_edges
         m = segment_start[r + 1] - segment_start[r]
-        start = points[origin[2 * e]]
-        for j in range(node_start[r + 1] - node_start[r]):
-            if j not in (0, m):
-                node = nodes[node_start[r] + j]
+        n_edges += m - 1
+        first = node_start[r]
+        for j in range(first, node_start[r + 1]):
+            if j not in (first, first + m):
+                x, y, z = nodes[j, 0], length * nodes[j, 1], length * nodes[j, 2]
                 for axis in range(3):
                     points[n_vertices, axis] = (
-                        start[axis]
-                        + node[0] * frames[i, axis]
-                        + length * (node[1] * frames[i, 3 + axis] + node[2] * frames[i, 6 + axis])
+                        points[start, axis] + x * frames[i, axis] + (y * frames[i, 3 + axis] + z * frames[i, 6 + axis])
                     )
                 n_vertices += 1
-        first = segment_start[r]
-        names, flips = segment_label[first : first + m], segment_flip[first : first + m]
-        _link_path(origin, nxt, prev, face, label, made, e, n_edges, vertex_base[i], names, flips, moved)
-        n_edges += m - 1
+    _link_paths(
+        origin, nxt, prev, face, label, made, edges, rules, count, segment_start, segment_label, segment_flip,
+        vertex_base, first_edge, moved,
+    )  # fmt: skip
     return n_vertices, n_edges
 
 
 @njit(cache=True)
-def _link_path(
-    origin: Corners, nxt: Corners, prev: Corners, face: Corners, label: Corners, made: Flags, edge: int, n_edges: int,
-    base: int, names: Ints, flips: Flags, moved: Ints,
+def _link_paths(
+    origin: Corners, nxt: Corners, prev: Corners, face: Corners, label: Corners, made: Flags, edges: Ints, rules: Ints,
+    count: int, segment_start: Ints, segment_label: Ints, segment_flip: Flags, vertex_base: Ints, n_edges: int,
+    moved: Ints,
 ) -> None:  # fmt: skip
-    """Put segments in the place of an edge, through the vertices from ``base`` on."""
-    h, m = 2 * edge, names.size
-    s, t = origin[h], origin[h + 1]
-    out_of, back_into = nxt[h], prev[h + 1]
-    left, right, kept = face[h], face[h + 1], label[edge]
-    ahead, behind = prev[h], nxt[h + 1]
-    for j in range(m):
-        part = edge if j == 0 else n_edges + j - 1
-        flip = 1 if flips[j] else 0
-        along, back = 2 * part + flip, 2 * part + 1 - flip
-        origin[along] = s if j == 0 else base + j - 1
-        origin[back] = t if j == m - 1 else base + j
-        face[along], face[back] = left, right
-        label[part] = kept if names[j] < 0 else names[j]
-        made[part] = True
-        nxt[ahead], prev[along] = along, ahead
-        nxt[back], prev[behind] = behind, back
-        if j == 0:
-            moved[h] = along
-        ahead, behind = along, back
-    nxt[ahead], prev[out_of] = out_of, ahead
-    nxt[back_into], prev[behind] = behind, back_into
-    moved[h + 1] = behind
+    """Put segments in the place of edges, through the vertices made for each."""
+    for i in range(count):
+        edge, base, first = edges[i], vertex_base[i], segment_start[rules[i]]
+        h, m = 2 * edge, segment_start[rules[i] + 1] - first
+        s, t = origin[h], origin[h + 1]
+        out_of, back_into = nxt[h], prev[h + 1]
+        left, right, kept = face[h], face[h + 1], label[edge]
+        ahead, behind = prev[h], nxt[h + 1]
+        for j in range(m):
+            part = edge if j == 0 else n_edges + j - 1
+            flip = 1 if segment_flip[first + j] else 0
+            along, back = 2 * part + flip, 2 * part + 1 - flip
+            origin[along] = s if j == 0 else base + j - 1
+            origin[back] = t if j == m - 1 else base + j
+            face[along], face[back] = left, right
+            name = segment_label[first + j]
+            label[part] = kept if name < 0 else name
+            made[part] = True
+            nxt[ahead], prev[along] = along, ahead
+            nxt[back], prev[behind] = behind, back
+            if j == 0:
+                moved[h] = along
+            ahead, behind = along, back
+        n_edges += m - 1
+        nxt[ahead], prev[out_of] = out_of, ahead
+        nxt[back_into], prev[behind] = behind, back_into
+        moved[h + 1] = behind

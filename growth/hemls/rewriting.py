@@ -96,7 +96,7 @@ class Rewriting:
             m.edges = _branches.draw_chains(
                 m.points, m.origin, m.next, m.prev, m.face, m.label, m.made, m.edges, edges, rules, n,
                 p.segment_start, p.segment_flip, p.chain_start, p.chains, vertex_base, edge_base, frames,
-                np.empty(p.widest, dtype=np.int64), outs,
+                outs,
             )  # fmt: skip
             self.chained.append((old_edges, m.edges))
         b = self.branches
@@ -131,11 +131,7 @@ class Rewriting:
         )  # fmt: skip
         if not len(first):
             return None
-        # Distances that differ by rounding alone are equal, so that ids decide and not the last bit.
-        steps = np.rint(span / (size * COINCIDENT)).astype(np.int64)
-        ids = m.origin[b.corner[first]].astype(np.int64) * m.vertices + m.origin[b.corner[second]]
-        # Several pairs can have the same ends: then the label decides, then the order in which branches were drawn.
-        best = np.lexsort((second, first, b.label[first], ids, steps, bend))
+        best = self._best_first(first, second, bend, span / (size * COINCIDENT))
         m.reserve(m.vertices, m.edges + b.count // 2)
         alive = np.ones(b.count, dtype=np.bool_)
         m.edges, m.faces = _branches.join(
@@ -146,6 +142,22 @@ class Rewriting:
         if m.edges > self.budget.elements:
             return _over("edges", m.edges, self.budget.elements, "max_elements")
         return None
+
+    def _best_first(self, first: Ints, second: Ints, bend: Ints, span: NDArray[np.float64]) -> Ints:
+        """Order pairs of branches by the sum of their angles, their distance, and their vertices.
+
+        Distances that differ by rounding alone are equal, so that vertices decide and not the last bit. Several pairs
+        can have the same ends: then the label decides, then the order in which branches were drawn.
+        """
+        m, b = self.map, self.branches
+        # Distances, in parts of 1e-9 of the extent, are under 2^31.
+        order = (bend << 32) + np.rint(span).astype(np.int64)
+        ends = m.origin[b.corner[first]].astype(np.int64) * m.vertices + m.origin[b.corner[second]]
+        best = np.lexsort((ends, order))
+        ordered = ends[best]
+        if np.any(ordered[1:] == ordered[:-1]):
+            best = np.lexsort((second, first, b.label[first], ends, order))
+        return best
 
     def finish(self) -> None:
         """Take away the branches that found no partner, and their chains."""
