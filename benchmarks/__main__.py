@@ -1,0 +1,24 @@
+"""``python -m benchmarks`` (``make bench``): every benchmark that takes minutes rather than a quarter of an hour."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+NAMES = ("growth", "bnf_mapping", "mesh_queries", "start", "islands")
+
+
+def failed(name: str) -> bool:
+    """Run one benchmark in a process of its own; tell whether it missed its limit."""
+    return subprocess.run([sys.executable, "-m", f"benchmarks.{name}"], check=False).returncode != 0
+
+
+def main() -> int:
+    """Run all; give 1 when one missed its limit."""
+    missed = [name for name in NAMES if failed(name)]
+    print(f"missed: {', '.join(missed)}" if missed else "all within their limits")
+    return bool(missed)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
