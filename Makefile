@@ -16,7 +16,7 @@ run: $(RUN_READY)  ## run the main job and say where its results are
 
 test: $(TEST_READY)  ## checkers, then the test suite
 	@$(MAKE) --no-print-directory lint
-	@$(BIN)/python -m pytest -q
+	@$(BIN)/python -m pytest -q -n 2
 
 lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
 	@$(BIN)/ruff check
