@@ -5,26 +5,21 @@ To add a criterion, write it in a file of its own and name it in :data:`CRITERIA
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping
-from importlib.metadata import EntryPoint, entry_points
 from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeAlias, cast
 
+from evaluators.plugins import find_function
 from evaluators.size import size
 from evaluators.smoothness import smoothness
 from evaluators.soft_boundaries import soft_boundaries
 from evaluators.subdivisions import subdivisions
 from evaluators.symmetry import symmetry
 from evaluators.undulation import undulation
-from genome.errors import InputError
-from genome.settings import near
 from growth.surface import Surface
 
 if TYPE_CHECKING:
     from growth.environment import Environment
-
-_PATH = re.compile(r"[^\W\d]\w*(\.\w+)*:[^\W\d]\w*(\.\w+)*")
 
 Criterion: TypeAlias = "Callable[[Surface, Environment], float]"
 """A function of a form and the environment that it grew in to one finite number; it changes neither."""
@@ -61,31 +56,9 @@ def resolve(name: str, where: str = "fitness") -> Criterion:
     InputError
         Where there is no such criterion, it cannot be imported, or it cannot be called.
     """
-    if name in CRITERIA:
-        return CRITERIA[name]
-    if _PATH.fullmatch(name):
-        return _loaded(EntryPoint(name, name, GROUP), where)
-    plugins = entry_points(group=GROUP)
-    if name in plugins.names:
-        return _loaded(plugins[name], where)
-    if ":" in name:
-        raise InputError(where, "an import path package.module:object", f"'{name}'")
-    remedy = near(name, [*CRITERIA, *plugins.names])
-    raise InputError(where, "a criterion's name or import path", f"'{name}'", remedy)
+    return cast("Criterion", find_function(name, where, "criterion", CRITERIA, GROUP))
 
 
 def resolve_all(names: Iterable[str], where: str = "fitness") -> dict[str, Criterion]:
     """Find several criteria, in the order given."""
     return {name: resolve(name, where) for name in names}
-
-
-def _loaded(plugin: EntryPoint, where: str) -> Criterion:
-    shown = plugin.value if plugin.name == plugin.value else f"{plugin.name} = {plugin.value}"
-    try:
-        found: object = plugin.load()
-    except Exception as error:  # a plug-in's module may fail in any way
-        reason = f"{type(error).__name__}: {error}"
-        raise InputError(where, f"an importable criterion '{shown}'", reason, "is it installed?") from error
-    if not callable(found):
-        raise InputError(where, f"a function at '{shown}'", type(found).__name__)
-    return cast("Criterion", found)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Final
 
+from evaluators.plugins import find
 from genome.errors import InputError
 from islands.kinds.protocol import Kind
-from islands.plugins import find
 
 KINDS: Final = {
     "surface": "islands.kinds.surface:SurfaceKind",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final, cast
 
+from evaluators.plugins import find_function
 from genome.errors import InputError
-from islands.plugins import find
 
 Topology = Callable[[int], list[tuple[int, int]]]
 
@@ -43,7 +43,7 @@ def edges_of(name: str, count: int, where: str) -> list[tuple[int, int]]:
     InputError
         When there is no such topology, or a plug-in's gives edges that cannot be.
     """
-    topology = cast("Topology", find(name, where, "topology", TOPOLOGIES, GROUP, LATER))
+    topology = cast("Topology", find_function(name, where, "topology", TOPOLOGIES, GROUP, LATER))
     edges = sorted({(int(source), int(target)) for source, target in topology(count)})
     for source, target in edges:
         if source == target or not (0 <= source < count and 0 <= target < count):

@@ -4,6 +4,7 @@ import sys
 
 import plugin_criteria
 import pytest
+from plugged import install
 from surfaces import SQUARE, TENT
 
 from evaluators.registry import CRITERIA, resolve, resolve_all
@@ -17,15 +18,8 @@ HERE = Environment.empty()
 
 @pytest.fixture
 def installed(tmp_path, monkeypatch):
-    """A plug-in package with entry points, as pip would leave it."""
-    info = tmp_path / "shade-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: shade\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(
-        "[atoll.evaluators]\nshade = plugin_criteria:vertices\nbroken = shade_missing:f\n"
-        "size = plugin_criteria:raises\n"
-    )
-    monkeypatch.syspath_prepend(tmp_path)
+    points = {"shade": "plugin_criteria:vertices", "broken": "shade_missing:f", "size": "plugin_criteria:raises"}
+    install(tmp_path, monkeypatch, "atoll.evaluators", **points)
 
 
 class TestResolve:
@@ -48,45 +42,47 @@ class TestResolve:
     @pytest.mark.parametrize(
         ("name", "message"),
         [
-            ("sise", "here: expected a criterion's name or import path, got 'sise'; did you mean 'size'?"),
-            ("shde", "here: expected a criterion's name or import path, got 'shde'; did you mean 'shade'?"),
-            ("a b:c", "here: expected an import path package.module:object, got 'a b:c'"),
-            (":f", "here: expected an import path package.module:object, got ':f'"),
+            ("sise", "a criterion, got 'sise'; did you mean 'size'?"),
+            ("shde", "a criterion, got 'shde'; did you mean 'shade'?"),
+            ("a b:c", "a criterion's name or an import path 'package.module:object', got 'a b:c'"),
+            (":f", "a criterion's name or an import path 'package.module:object', got ':f'"),
             (
                 "no_such.module:f",
                 (
-                    "here: expected an importable criterion 'no_such.module:f', "
-                    "got ModuleNotFoundError: No module named 'no_such'; is it installed?"
+                    "a criterion that can be imported, got 'no_such.module:f', which does not import (ModuleNotFoundError: "
+                    "No module named 'no_such'); install it, or put its folder on PYTHONPATH"
                 ),
             ),
             (
                 "plugin_criteria:nothing",
                 (
-                    "here: expected an importable criterion 'plugin_criteria:nothing', got AttributeError: "
-                    "module 'plugin_criteria' has no attribute 'nothing'; is it installed?"
+                    "a criterion that can be imported, got 'plugin_criteria:nothing', which does not import "
+                    "(AttributeError: module 'plugin_criteria' has no attribute 'nothing')"
                 ),
             ),
             (
                 "broken",
                 (
-                    "here: expected an importable criterion 'broken = shade_missing:f', "
-                    "got ModuleNotFoundError: No module named 'shade_missing'; is it installed?"
+                    "a criterion that can be imported, got 'broken = shade_missing:f', which does not import "
+                    "(ModuleNotFoundError: No module named 'shade_missing'); install it, or put its folder on PYTHONPATH"
                 ),
             ),
-            ("plugin_criteria:NUMBER", "here: expected a function at 'plugin_criteria:NUMBER', got int"),
+            ("plugin_criteria:NUMBER", "a criterion that can be called, got 'plugin_criteria:NUMBER', an int"),
         ],
     )
     def test_what_cannot_be_found_is_named(self, installed, name, message):
         with pytest.raises(InputError) as caught:
             resolve(name, "here")
-        assert str(caught.value) == message
+        assert str(caught.value) == f"here: expected {message}"
 
     def test_a_module_that_fails_when_imported_is_named(self, tmp_path, monkeypatch):
         (tmp_path / "fails_at_import.py").write_text("1 / 0\n")
         monkeypatch.syspath_prepend(tmp_path)
         with pytest.raises(InputError) as caught:
             resolve("fails_at_import:f")
-        assert "'fails_at_import:f', got ZeroDivisionError: division by zero" in str(caught.value)
+        assert str(caught.value).endswith(
+            "'fails_at_import:f', which does not import (ZeroDivisionError: division by zero)"
+        )
         assert "fails_at_import" not in sys.modules
 
 

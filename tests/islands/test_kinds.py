@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from archipelagos import spec
 from bits import BitsKind
+from plugged import install
 
 from evaluators.registry import CRITERIA
 from genome.errors import InputError
@@ -158,12 +159,25 @@ def test_forms_are_written_under_the_stem(biology, tmp_path) -> None:
     assert all(path.is_file() and path.name.startswith("a.b-1.") for path in files)
 
 
-def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path() -> None:
+def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_entry_point(
+    tmp_path, monkeypatch
+) -> None:
     for name in LATER:
         with pytest.raises(InputError, match=f"'{name}', which comes with a later version"):
             resolve_kind(name, "here")
     assert isinstance(resolve_kind("bits:BitsKind", "here"), BitsKind)
     assert {resolve_kind(name, "here").name for name in KINDS} == set(KINDS)
+    names = {
+        "words": "bits:BitsKind",
+        "surface": "bits:BitsKind",
+        "blocks": "bits:BitsKind",
+        "extra": "bits:BitsKind [x]",
+    }
+    install(tmp_path, monkeypatch, "atoll.kinds", **names)
+    assert {resolve_kind(name, "here").name for name in ("words", "blocks", "extra")} == {"bits"}
+    assert resolve_kind("surface", "here").name == "surface"
+    with pytest.raises(InputError, match="known now: blocks, extra, surface, words"):
+        resolve_kind("room", "here")
 
 
 @pytest.fixture

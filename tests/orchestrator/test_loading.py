@@ -5,11 +5,15 @@ from __future__ import annotations
 import copy
 
 import pytest
+from bits import pairs
+from plugged import install
 
 from experiments import bits, write
 from genome.errors import InputError
 from orchestrator.loading import load_experiment
 from orchestrator.run import make_backend, prepare
+from orchestrator.topology.registry import edges_of
+from orchestrator.topology.ring import ring
 
 SHEET = """
 name: drape
@@ -127,8 +131,8 @@ MISTAKES = [
     ("islands.north.population", 0, "islands.north.population: expected greater than or equal to 1, got 0"),
     ("islands.north.kind", "blocks", "islands.north.kind: expected an island kind that is built, got 'blocks'"),
     ("islands.north.kind", "surfaces", "expected an island kind, got 'surfaces'; did you mean 'surface'?"),
-    ("islands.north.kind", "bits:Nothing", "an island kind in the module bits, got no 'Nothing' there"),
-    ("islands.north.kind", "nowhere.at.all:X", "whose module does not import (ModuleNotFoundError"),
+    ("islands.north.kind", "bits:Nothing", "an island kind that can be imported, got 'bits:Nothing', which does not"),
+    ("islands.north.kind", "nowhere.at.all:X", "'nowhere.at.all:X', which does not import (ModuleNotFoundError"),
     ("islands.north.kind", "bits:Bits Kind", "an island kind's name or an import path 'package.module:object'"),
     ("islands.north.kind", "bits:BitsGenome", "'bits:BitsGenome', a BitsGenome without name"),
     ("islands.north.genome", {"lenght": 4}, "genome.lenght: expected a known key, got 'lenght'; did you mean 'length'"),
@@ -141,6 +145,7 @@ MISTAKES = [
     ("islands.no rth", {}, "islands.no rth"),
     ("channels.0.topology", "torus", "channels.0.topology: expected a topology that is built, got 'torus'"),
     ("channels.0.topology", "rnig", "channels.0.topology: expected a topology, got 'rnig'; did you mean 'ring'?"),
+    ("channels.0.topology", "bits:CRITERIA", "expected a topology that can be called, got 'bits:CRITERIA', a tuple"),
     ("channels.0.kind", "partners", "channels.0.kind: expected 'migrants', got 'partners', which comes with a later"),
     ("channels.0.among", "nort", "channels.0.among: expected an island of the experiment, got 'nort'; did you mean"),
     ("channels.0.among", ["north", 4], "channels.0.among: expected an island's name or a list of names, got"),
@@ -199,6 +204,16 @@ def test_a_wrong_override_is_told_as_such(tmp_path, override, message) -> None:
     with pytest.raises(InputError) as caught:
         prepare(load_experiment(write(tmp_path, bits()), [override]))
     assert message in str(caught.value)
+
+
+def test_topologies_come_from_plug_ins_but_not_under_the_projects_names(tmp_path, monkeypatch) -> None:
+    names = {"pairs": "bits:pairs", "ring": "bits:pairs", "star": "bits:pairs"}
+    install(tmp_path, monkeypatch, "atoll.topologies", **names)
+    assert edges_of("ring", 4, "here") == ring(4)
+    for name in ("pairs", "star", "bits:pairs"):
+        assert edges_of(name, 4, "here") == pairs(4)
+    with pytest.raises(InputError, match="here: expected a topology, got 'pair'; did you mean 'pairs'"):
+        edges_of("pair", 4, "here")
 
 
 def test_overrides_reach_any_path(tmp_path) -> None:

@@ -112,3 +112,8 @@ class BitsKind:
 
     def keep_files(self, spec: IslandSpec, keep: Keep) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
         return spec.genome, spec.growth
+
+
+def pairs(count: int) -> list[tuple[int, int]]:
+    """A topology as a plug-in would bring it."""
+    return [(place, place + 1) for place in range(0, count - 1, 2)]

@@ -1,0 +1,79 @@
+"""Finding what an experiment names: in a registry, by import path, or among Python's entry points."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from importlib.metadata import EntryPoint, entry_points
+
+from genome.errors import InputError
+from genome.settings import near
+
+IMPORT_PATH = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
+
+
+def find(
+    name: str, where: str, what: str, registry: Mapping[str, object], group: str, later: Sequence[str] = ()
+) -> object:
+    """Find an object by the name that an experiment gives it.
+
+    Parameters
+    ----------
+    name
+        A name of ``registry``, an import path ``package.module:object``, or an entry point's name. The registry's
+        names cannot be taken by a plug-in.
+    where
+        The place in the experiment, for messages.
+    what
+        What is looked for, for messages: "island kind".
+    registry
+        The project's own: the objects, or import paths of those that are imported when first used.
+    group
+        The entry points' group.
+    later
+        Names that are known but not built yet.
+
+    Raises
+    ------
+    InputError
+        When there is nothing by that name, or it cannot be imported.
+    """
+    if name in registry:
+        own = registry[name]
+        return _imported(EntryPoint(name, own, group), where, what) if isinstance(own, str) else own
+    if IMPORT_PATH.fullmatch(name):
+        return _imported(EntryPoint(name, name, group), where, what)
+    installed = entry_points(group=group)
+    if name in installed.names:
+        return _imported(installed[name], where, what)
+    if ":" in name:
+        raise InputError(where, f"{_article(what)}'s name or an import path 'package.module:object'", f"'{name}'")
+    known = sorted({*registry, *installed.names})
+    if name in later:
+        got, remedy = f"'{name}', which comes with a later version", f"known now: {', '.join(known)}"
+        raise InputError(where, f"{_article(what)} that is built", got, remedy)
+    raise InputError(where, _article(what), f"'{name}'", near(name, [*known, *later]))
+
+
+def find_function(
+    name: str, where: str, what: str, registry: Mapping[str, object], group: str, later: Sequence[str] = ()
+) -> Callable[..., object]:
+    """Find something that can be called; as :func:`find` otherwise."""
+    found = find(name, where, what, registry, group, later)
+    if not callable(found):
+        raise InputError(where, f"{_article(what)} that can be called", f"'{name}', {_article(type(found).__name__)}")
+    return found
+
+
+def _imported(point: EntryPoint, where: str, what: str) -> object:
+    shown = point.value if point.name == point.value else f"{point.name} = {point.value}"
+    try:
+        return point.load()
+    except Exception as error:  # a plug-in's module may raise anything while it is imported
+        got = f"'{shown}', which does not import ({type(error).__name__}: {error})"
+        remedy = "install it, or put its folder on PYTHONPATH" if isinstance(error, ImportError) else ""
+        raise InputError(where, f"{_article(what)} that can be imported", got, remedy) from error
+
+
+def _article(noun: str) -> str:
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
