@@ -14,6 +14,10 @@ from growth.environment import Environment
 from growth.protocol import Failure
 
 HERE = Environment.empty()
+LOST = "a criterion that can be imported, got"
+MISSING = "which does not import (ModuleNotFoundError: No module named"
+INSTALL = "install it, or put its folder on PYTHONPATH"
+NOTHING = "module 'plugin_criteria' has no attribute 'nothing'"
 
 
 @pytest.fixture
@@ -46,27 +50,12 @@ class TestResolve:
             ("shde", "a criterion, got 'shde'; did you mean 'shade'?"),
             ("a b:c", "a criterion's name or an import path 'package.module:object', got 'a b:c'"),
             (":f", "a criterion's name or an import path 'package.module:object', got ':f'"),
-            (
-                "no_such.module:f",
-                (
-                    "a criterion that can be imported, got 'no_such.module:f', which does not import (ModuleNotFoundError: "
-                    "No module named 'no_such'); install it, or put its folder on PYTHONPATH"
-                ),
-            ),
+            ("no_such.module:f", f"{LOST} 'no_such.module:f', {MISSING} 'no_such'); {INSTALL}"),
             (
                 "plugin_criteria:nothing",
-                (
-                    "a criterion that can be imported, got 'plugin_criteria:nothing', which does not import "
-                    "(AttributeError: module 'plugin_criteria' has no attribute 'nothing')"
-                ),
+                f"{LOST} 'plugin_criteria:nothing', which does not import (AttributeError: {NOTHING})",
             ),
-            (
-                "broken",
-                (
-                    "a criterion that can be imported, got 'broken = shade_missing:f', which does not import "
-                    "(ModuleNotFoundError: No module named 'shade_missing'); install it, or put its folder on PYTHONPATH"
-                ),
-            ),
+            ("broken", f"{LOST} 'broken = shade_missing:f', {MISSING} 'shade_missing'); {INSTALL}"),
             ("plugin_criteria:NUMBER", "a criterion that can be called, got 'plugin_criteria:NUMBER', an int"),
         ],
     )
