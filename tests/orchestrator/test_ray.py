@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipaddress
 import json
 import os
 import signal
@@ -110,10 +111,24 @@ def until_settled(folder: Path, process: subprocess.Popen) -> None:
     raise AssertionError("no generation within a minute")
 
 
+def strangers_can_reach(process: subprocess.Popen) -> list[str]:
+    """Give the addresses, other than loopback's, on which a run's processes listen."""
+    driver = psutil.Process(process.pid)
+    listening = [
+        connection.laddr.ip
+        for member in (driver, *driver.children(recursive=True))
+        for connection in member.net_connections(kind="inet")
+        if connection.status == psutil.CONN_LISTEN
+    ]
+    assert len(listening) > 3
+    return [ip for ip in listening if not ipaddress.ip_address(ip.removeprefix("::ffff:")).is_loopback]
+
+
 @pytest.mark.ray
 def test_ctrl_c_stops_cleanly(tmp_path, clean) -> None:
     process = start(tmp_path, slow())
     until_settled(tmp_path, process)
+    assert strangers_can_reach(process) == []
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does: every process of the group gets it
     told, _ = ended(process, 130)
     assert told["status"] == "stopped"
