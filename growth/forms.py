@@ -8,7 +8,6 @@ round them (to 8 digits, to float32). The same surface gives the same bytes.
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -17,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genome.errors import InputError
+from genome.files import write_whole
 from growth.surface import Indices, Points, Surface
 
 if TYPE_CHECKING:
@@ -154,18 +154,6 @@ def write_form(
     write_whole(path, writer(surface, {**words, **(extras or {})}))
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file beside its place and move it there, so that nobody ever sees half of it."""
-    waiting = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        waiting.write_bytes(content)
-        waiting.replace(path)
-    except OSError as error:
-        waiting.unlink(missing_ok=True)
-        reason = error.strerror or str(error)
-        raise InputError(str(path), "a file that can be written", reason.lower(), "check the folder") from None
-
-
 def _glb(surface: Surface, extras: Mapping[str, Any]) -> bytes:
     import trimesh
     from trimesh.exchange.gltf import export_glb
@@ -175,12 +163,12 @@ def _glb(surface: Surface, extras: Mapping[str, Any]) -> bytes:
     vertices, triangles = triangulate(surface)
     turned = np.stack([vertices[:, 0], vertices[:, 2], -vertices[:, 1]], axis=1)
     finish = {"baseColorFactor": COLOUR, "metallicFactor": 0.0, "roughnessFactor": 0.85, "doubleSided": True}
-    material = PBRMaterial(name="surface", **finish)  # type: ignore[no-untyped-call]
-    visual = TextureVisuals(material=material)  # type: ignore[no-untyped-call]
+    material = PBRMaterial(name="surface", **finish)
+    visual = TextureVisuals(material=material)
     mesh = trimesh.Trimesh(vertices=turned, faces=triangles, process=False, validate=False, visual=visual)
     scene = trimesh.Scene(metadata=dict(extras))
     scene.add_geometry(mesh, node_name="surface", geom_name="surface")
-    return bytes(export_glb(scene, include_normals=False))  # type: ignore[no-untyped-call]
+    return bytes(export_glb(scene, include_normals=False))
 
 
 def _obj(surface: Surface, extras: Mapping[str, Any]) -> bytes:

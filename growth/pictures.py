@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from genome.errors import InputError
+from genome.files import write_whole
 from growth.bodies import Bodies, Colour, joined, solid_body, surface_body
 from growth.camera import Camera, looking_at
 from growth.environment import Environment
-from growth.forms import write_whole
 from growth.light import TURNS, Ground, Rays, lit, sun_towards
 from growth.surface import Surface
 

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from genome.errors import InputError
+from genome.files import write_whole
 from genome.settings import near
 from genome.yaml import parse_yaml
 from islands.kinds.registry import resolve_kind
@@ -221,6 +222,4 @@ def versions(packages: Sequence[str]) -> dict[str, str]:
 
 
 def _write_manifest(folder: Path, manifest: Mapping[str, Any]) -> None:
-    draft = folder / f".{MANIFEST}"
-    draft.write_text(json.dumps(manifest, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-    draft.replace(folder / MANIFEST)
+    write_whole(folder / MANIFEST, (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode())

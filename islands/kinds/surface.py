@@ -16,6 +16,7 @@ from evaluators.fitness import Goal, total
 from evaluators.registry import CRITERIA, resolve
 from evaluators.score import score
 from genome.errors import InputError
+from genome.files import write_whole
 from genome.genr8 import Genr8Genome, Mapped
 from genome.integers import Genes, decode, encode, random_genes
 from genome.settings import Settings, describe
@@ -138,7 +139,7 @@ class SurfaceBiology:
 
     def _write(self, text: str, surface: Surface, path: Path, suffix: str, facts: Facts) -> None:
         if suffix == "hemls":
-            path.write_text(text, encoding="utf-8")
+            write_whole(path, text.encode())
         elif suffix == "png":
             from growth.pictures import render, write_png
 
