@@ -8,6 +8,7 @@ from typing import Any
 
 from orchestrator.folder import RunFolder
 from orchestrator.query import as_rows, ask
+from orchestrator.regrow import best
 
 ISLANDS = """
     with latest as (
@@ -27,11 +28,6 @@ ISLANDS = """
     order by f.first_id
 """
 
-BEST = """
-    select island, id, fitness from individuals where fitness is not null
-    order by fitness desc, id limit 1
-"""
-
 
 def standing(folder: RunFolder) -> dict[str, Any]:
     """Give a run's status, islands, best so far, and rates.
@@ -42,7 +38,7 @@ def standing(folder: RunFolder) -> dict[str, Any]:
     """
     manifest = folder.manifest()
     islands = as_rows(ask(folder.log, ISLANDS))
-    best = as_rows(ask(folder.log, BEST))
+    top = best(folder, 1)
     evaluations = sum(int(row["evaluations"]) for row in islands)
     busy = sum(float(row.pop("wall_ms")) for row in islands) / 1e3
     return {
@@ -55,7 +51,7 @@ def standing(folder: RunFolder) -> dict[str, Any]:
         "generations": min((int(row["generation"]) for row in islands), default=0),
         "evaluations": evaluations,
         "evaluations_per_s": round(evaluations / busy, 3) if busy > 0 else None,
-        "best": best[0] if best else None,
+        "best": {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None,
         "islands": islands,
     }
 
