@@ -24,7 +24,7 @@ from islands.island import Advance, Island, State
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
 from islands.migration.channel import Edge, Packet
-from islands.selection import best_of, ranked
+from islands.selection import ranked
 from islands.spec import IslandSpec
 
 Box = tuple[Packet, ...]
@@ -77,17 +77,29 @@ class HostPlan:
 
 @dataclass(frozen=True, slots=True)
 class IslandSummary:
-    """How an island stands at an epoch's end: what the driver may see of it."""
+    """How an island stands at an epoch's end: what the driver may see of it.
+
+    Attributes
+    ----------
+    island, epoch, generation
+        Which island, and when.
+    evaluations, migrants
+        Scorings in this epoch, and migrants that were let in at its start.
+    best, mean, invalid
+        Figures of its members.
+    champion
+        Fitness and id of the best individual that it ever bred, member still or not; of equal ones the older.
+    """
 
     island: str
     epoch: int
     generation: int
     evaluations: int
     best: float | None
-    best_id: int | None
     mean: float | None
     invalid: int
     migrants: int
+    champion: tuple[float, int] | None
 
 
 class StoppedError(Exception):
@@ -117,6 +129,7 @@ class Host:
         self._stop = threading.Event()
         self._islands: tuple[Island[Any], ...] = ()
         self._states: dict[int, State[Any]] = {}
+        self._champions: dict[int, tuple[float, int]] = {}
         self._kept: Box = ()
         self._log = LogWriter(Path(plan.folder) / "log", plan.run, plan.islands, calendar)
 
@@ -182,7 +195,7 @@ class Host:
         boxes[self._plan.host] = []
         if epoch % self._plan.flush_epochs == 0 and epoch > 0:
             self._log.flush()
-        summaries = tuple(_summary(i, s) for i, s in zip(self._islands, steps, strict=True))
+        summaries = tuple(self._summary(i, s) for i, s in zip(self._islands, steps, strict=True))
         return (summaries, *(tuple(box) for box in boxes))
 
     def finish(self, write_forms: bool) -> tuple[str, ...]:
@@ -229,25 +242,28 @@ class Host:
             raise RuntimeError(text)
         return island.advance(state, self._plan.generations, arrivals)
 
+    def _summary(self, island: Island[Any], step: Advance[Any]) -> IslandSummary:
+        last, number = step.records.generations[-1], island.spec.number
+        contenders = [(row.fitness, row.id) for row in step.records.born if row.fitness is not None]
+        if number in self._champions:
+            contenders.append(self._champions[number])
+        if contenders:
+            self._champions[number] = min(contenders, key=lambda one: (-one[0], one[1]))
+        return IslandSummary(
+            island=island.spec.name,
+            epoch=step.state.epoch,
+            generation=step.state.generation,
+            evaluations=sum(row.evaluations for row in step.records.generations),
+            best=last.best,
+            mean=last.mean,
+            invalid=last.invalid,
+            migrants=sum(crossing.accepted for crossing in step.records.crossings),
+            champion=self._champions.get(number),
+        )
+
     def _pulse(self) -> None:
         if self._stop.is_set():
             raise StoppedError
-
-
-def _summary(island: Island[Any], step: Advance[Any]) -> IslandSummary:
-    last = step.records.generations[-1]
-    best = best_of(step.state.deme)
-    return IslandSummary(
-        island=island.spec.name,
-        epoch=step.state.epoch,
-        generation=step.state.generation,
-        evaluations=sum(row.evaluations for row in step.records.generations),
-        best=last.best,
-        best_id=None if best is None else best.id,
-        mean=last.mean,
-        invalid=last.invalid,
-        migrants=sum(crossing.accepted for crossing in step.records.crossings),
-    )
 
 
 def pin_threads() -> None:

@@ -1,9 +1,9 @@
-"""Choosing among individuals: who breeds, who survives, who is best."""
+"""Choosing among individuals: who breeds and who survives."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,9 +38,3 @@ def tournaments(size: int, entrants: int, rounds: int, rng: np.random.Generator)
     """
     winners: NDArray[np.int64] = rng.integers(0, size, size=(rounds, entrants)).min(axis=1)
     return winners
-
-
-def best_of(deme: Sequence[Individual[Any]]) -> Individual[Any] | None:
-    """Give the best valid member; ``None`` when all are invalid or there are none."""
-    best = min(deme, key=merit, default=None)
-    return best if best is not None and best.fitness is not None else None

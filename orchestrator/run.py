@@ -44,7 +44,7 @@ class Outcome:
     islands, generations, evaluations
         How many islands; generations that all of them finished; scorings done until then.
     best
-        The best individual at the last such generation: island, id, fitness; ``None`` when all were invalid.
+        The best individual bred until then, still a member or not: island, id, fitness; ``None`` when all were invalid.
     wall_s, startup_s
         Wall time from start to end, and of it the time until all hosts stood.
     """
@@ -282,12 +282,12 @@ class _Drive:
 
 
 def best_row(rows: tuple[IslandSummary, ...]) -> dict[str, Any] | None:
-    """Give the best individual among the islands' best: island, id, fitness."""
-    valid = [row for row in rows if row.best is not None]
-    if not valid:
+    """Give the best individual that the islands ever bred: island, id, fitness; of equal ones the lowest id."""
+    champions = [(row.island, *row.champion) for row in rows if row.champion is not None]
+    if not champions:
         return None
-    top = min(valid, key=lambda row: (-(row.best or 0.0), row.best_id or 0))
-    return {"island": top.island, "id": top.best_id, "fitness": top.best}
+    island, fitness, identity = min(champions, key=lambda one: (-one[1], one[2]))
+    return {"island": island, "id": identity, "fitness": fitness}
 
 
 def _deadlines(loaded: Loaded, plan: Plan, hosts: int, seconds: dict[str, float]) -> Deadlines:

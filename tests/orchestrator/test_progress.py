@@ -22,7 +22,7 @@ class Terminal(io.StringIO):
 def rows(epoch: int) -> tuple[IslandSummary, ...]:
     figures = [("north-0", 3.5, 2.5, 0), ("south", None, None, 9)]
     return tuple(
-        IslandSummary(name, epoch, epoch * 3, 11, best, 7, mean, invalid, 2) for name, best, mean, invalid in figures
+        IslandSummary(name, epoch, epoch * 3, 11, best, mean, invalid, 2, None) for name, best, mean, invalid in figures
     )
 
 

@@ -21,6 +21,7 @@ from orchestrator.loading import load_experiment
 from orchestrator.query import ask
 from orchestrator.regrow import Nursery, by_id, same
 from orchestrator.run import make_backend, run_experiment
+from orchestrator.standing import standing
 
 ISLANDS = ["north-0", "north-1", "north-2", "south"]
 
@@ -44,6 +45,20 @@ def test_the_outcome_says_what_the_log_says(outcome) -> None:
     assert bred == 45 + 12 * (3 * 11 + 8)
     ((best,),) = ask(log, "select max(fitness) from individuals").rows
     assert outcome.best["fitness"] == best
+
+
+def test_the_best_is_the_best_ever_bred_also_where_no_elite_keeps_it(tmp_path) -> None:
+    data = bits(channels=[{"topology": "ring", "count": 1}])
+    data["defaults"]["algorithm"] = {"elite": 0, "tournament": 1, "mutation": 1.0}
+    outcome = run(tmp_path, data)
+    bred = [row for row in rows(outcome, "individuals") if row["valid"]]
+    best = min(bred, key=lambda row: (-row["fitness"], row["id"]))
+    assert outcome.best == {key: best[key] for key in ("island", "id", "fitness")}
+    assert best["epoch"] < 4  # it was bred before the last epoch
+    last = [row["best"] for row in rows(outcome, "generations") if row["generation"] == 12]
+    assert max(last) < best["fitness"]  # and it is lost
+    folder = open_run(str(outcome.folder))
+    assert standing(folder)["best"] == folder.manifest()["best"] == outcome.best
 
 
 def test_the_folder_is_as_the_interface_has_it(outcome) -> None:
