@@ -25,7 +25,11 @@ class Settings(BaseModel):
 
 
 def _as_tuple(value: object) -> object:
-    return tuple(value) if isinstance(value, list) else value
+    if isinstance(value, tuple):
+        return value
+    if not isinstance(value, list) or len(value) != 3:
+        raise InputError("", "a list of three numbers: [x, y, z]", describe(value))
+    return tuple(value)
 
 
 Vector3 = Annotated[tuple[float, float, float], BeforeValidator(_as_tuple)]

@@ -67,11 +67,27 @@ class LazyGroup(click.Group):
             raise Complaint(str(error), 2) from None
         except KeyboardInterrupt:
             raise Complaint("interrupted", 130) from None
+        except MemoryError:
+            raise Complaint(
+                "this machine has not enough memory for that; lower the budget (max_elements, ...)", 1
+            ) from None
+        except SystemError as error:
+            # A Ctrl-C that strikes while a compiled kernel takes its arguments comes wrapped in this.
+            if _interrupted(error):
+                raise Complaint("interrupted", 130) from None
+            raise
         except OSError as error:
             if isinstance(error, BrokenPipeError):
                 raise
             place = f"{error.filename}: " if error.filename else ""
             raise Complaint(f"{place}{error.strerror or error}", 1) from None
+
+
+def _interrupted(error: BaseException | None) -> bool:
+    """Tell whether a Ctrl-C is among an exception's causes."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 @click.command(

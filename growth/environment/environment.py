@@ -54,11 +54,6 @@ class Environment:
         return bool(self._hard)
 
     @property
-    def has_soft(self) -> bool:
-        """Whether there is any boundary that growth may pass but should not."""
-        return bool(self._soft)
-
-    @property
     def boundaries(self) -> Sequence[Boundary]:
         """All boundaries, the hard ones first."""
         return (*self._hard, *self._soft)

@@ -22,7 +22,9 @@ LineOf = Callable[[KeyPath], int | None]
 
 
 def _as_tuple(value: object) -> object:
-    return tuple(value) if isinstance(value, list) else value
+    if not isinstance(value, (list, tuple)):
+        raise InputError("", "a list", describe(value), "write each entry after a '- '")
+    return tuple(value)
 
 
 class SourceSettings(Settings):

@@ -12,14 +12,15 @@ from growth.environment import Environment
 from growth.hemls import _whole
 from growth.hemls.map import HalfEdgeMap, seed
 from growth.hemls.program import compile_system
-from growth.hemls.rewriting import Rewriting, release
+from growth.hemls.rewriting import Rewriting, over_budget, release
 from growth.hemls.rules import System
 from growth.hemls.settings import SurfaceGrowth
-from growth.protocol import Clock, Failure
+from growth.protocol import Budget, Clock, Failure
 from growth.surface import Surface
 
 FARTHEST = 1e9
 """A form with a vertex farther out than this has diverged."""
+_FAR = f"a vertex lies farther out than {FARTHEST:g}"
 
 
 def grow(
@@ -68,7 +69,7 @@ def derive(
     environment = environment or Environment.empty()
     deadline = clock() + settings.budget.seconds
     m = seed(system.axiom, settings.start_length, settings.place)
-    failure = release(m, environment, 0)
+    failure = _unfit(m, settings.budget) or release(m, environment, 0)
     if failure is not None:
         yield failure
         return
@@ -90,6 +91,13 @@ def derive(
         yield m
 
 
+def _unfit(m: HalfEdgeMap, budget: Budget) -> Failure | None:
+    """Tell what keeps a seed from growing."""
+    if m.edges > budget.elements:
+        return over_budget("edges", m.edges, budget.elements, "max_elements")
+    return Failure("diverged", _FAR) if _whole.farther_than(m.points, FARTHEST) else None
+
+
 def _enlarge(m: HalfEdgeMap, scale: float, environment: Environment) -> Failure | None:
     """Move every vertex away from the centre and along the forces, up to the first boundary."""
     points = m.points[: m.vertices]
@@ -97,7 +105,7 @@ def _enlarge(m: HalfEdgeMap, scale: float, environment: Environment) -> Failure 
     _whole.enlarge(points, m.vertices, scale, target)
     target += environment.forces(points)
     if _whole.farther_than(target, FARTHEST):
-        return Failure("diverged", f"a vertex moved farther out than {FARTHEST:g}")
+        return Failure("diverged", _FAR)
     m.points[: m.vertices] = environment.move(points, target) if environment.has_hard else target
     return None
 

@@ -69,6 +69,12 @@ class Program:
         return np.diff(self.segment_start) - 1 + np.diff(self.chain_start)
 
     @cached_property
+    def looks(self) -> Ints:
+        """(R,) edges that are looked at to place what a rule draws: at most all chains, for each chain and branch."""
+        chains, branches = np.diff(self.chain_start), np.diff(self.branch_start)
+        return np.asarray((chains + 2) * (chains + branches))
+
+    @cached_property
     def new_branches(self) -> Ints:
         """(R,) branches that each rule draws."""
         return np.diff(self.branch_start)

@@ -15,6 +15,9 @@ from growth.hemls.program import Program
 from growth.protocol import Budget, Failure
 
 Ints = NDArray[np.int64]
+LOOKS = 200
+"""Edges that may be looked at to place chains and branches, for each edge of the budget: a rule of up to a hundred
+brackets never comes near, one that draws a fan of thousands would take minutes."""
 
 COINCIDENT = 1e-9
 """Points nearer than this share of the form's size coincide, and distances nearer to each other are equal."""
@@ -68,9 +71,16 @@ class Rewriting:
         more_vertices, more_edges = int(uses @ p.new_vertices), int(uses @ p.new_edges)
         more_branches = int(uses @ p.new_branches)
         if m.edges + more_edges > self.budget.elements:
-            return _over("edges", m.edges + more_edges, self.budget.elements, "max_elements")
+            return over_budget("edges", m.edges + more_edges, self.budget.elements, "max_elements")
         if self.branches.count + more_branches > 4 * self.budget.elements:
-            return _over("branches", self.branches.count + more_branches, 4 * self.budget.elements, "max_elements")
+            return over_budget(
+                "branches", self.branches.count + more_branches, 4 * self.budget.elements, "max_elements"
+            )
+        looks = int(uses @ p.looks)
+        if looks > LOOKS * self.budget.elements:
+            return over_budget(
+                "looks round the vertices of chains", looks, LOOKS * self.budget.elements, "max_elements"
+            )
         m.reserve(m.vertices + more_vertices, m.edges + more_edges)
         self.branches.reserve(more_branches)
         return self._draw(edges, rules)
@@ -121,7 +131,7 @@ class Rewriting:
             return None
         order, key, pairs = _branches.group_branches(m.face, b.corner, b.label, b.count, m.faces, self.n_labels)
         if pairs > self.budget.pairs:
-            return _over("pairs of branches in one joining", pairs, self.budget.pairs, "max_pairs")
+            return over_budget("pairs of branches in one joining", pairs, self.budget.pairs, "max_pairs")
         size = _whole.extent(m.points, m.vertices)
         if not math.isfinite(size):
             return Failure("diverged", "a vertex left the range of numbers")
@@ -140,7 +150,7 @@ class Rewriting:
         )  # fmt: skip
         b.count = _branches.keep_alive(b.count, b.corner, b.heading, b.up, b.label, alive)
         if m.edges > self.budget.elements:
-            return _over("edges", m.edges, self.budget.elements, "max_elements")
+            return over_budget("edges", m.edges, self.budget.elements, "max_elements")
         return None
 
     def _best_first(self, first: Ints, second: Ints, bend: Ints, span: NDArray[np.float64]) -> Ints:
@@ -184,5 +194,6 @@ def release(m: HalfEdgeMap, environment: Environment, first: int) -> Failure | N
     return None
 
 
-def _over(what: str, count: int, most: int, key: str) -> Failure:
+def over_budget(what: str, count: int, most: int, key: str) -> Failure:
+    """Give the failure of a growth that would make too much."""
     return Failure("budget", f"{count} {what} where {key} allows {most}")

@@ -25,7 +25,7 @@ MOST_NESTED = 100
 _TOKEN = re.compile(
     r"(?P<space>[ \t\r]+|\#[^\n]*)|(?P<end>[\n;])|(?P<arrow>->|→)|(?P<later>Edge_i(?:[+-]1)?|Edge[XYZ]\b|Weight\b|If\b)"
     r"|(?P<keyword>(?:BranchAngle|Angle|Sync)\b)|(?P<label>Edge\d+\b|E\d+\b|[A-Z](?![A-Za-z0-9_]))"
-    r"|(?P<number>\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)|(?P<symbol>[+\-&^\\/~\[\]<>])"
+    r"|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<symbol>[+\-&^\\/~\[\]<>])"
 )
 _LATER = {
     "Weight": "probabilistic rules",
@@ -195,7 +195,7 @@ class _Parser:
                 expected = "an edge of the axiom" if want_segment else "'+' or the end of the axiom"
                 raise self._error(token, expected, "the first line is the axiom, such as 'A + B + A + B'")
         if want_segment or flipped:
-            raise self._error(row[-1], "an edge after it", "", after=True)
+            raise self._error(row[-1], f"an edge after '{row[-1].text}'", "", after=True)
         if len(segments) < 3:
             raise self._error(row[0], "at least three edges in the axiom", "the seed is a polygon", f"{len(segments)}")
         return tuple(segments)
@@ -248,7 +248,8 @@ class _Parser:
         if set(pattern) == {"e"}:
             return [self._label(token) for token in row], None, None
         if pattern not in known:
-            raise self._error(row[0], "'A', 'A B', 'A < B', 'B > C' or 'A < B > C' before '->'", "", " ".join(names))
+            written = " ".join(token.text for token in row)
+            raise self._error(row[0], "'A', 'A B', 'A < B', 'B > C' or 'A < B > C' before '->'", "", f"'{written}'")
         labels = [self._label(token) if token.kind == "label" else -1 for token in row]
         if pattern == "e<e":
             return [labels[2]], labels[0], None

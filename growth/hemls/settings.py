@@ -35,11 +35,11 @@ class SurfaceGrowth(Settings):
 
     steps: Annotated[int, Field(ge=0, le=64)] = 4
     scale: Annotated[float, Field(gt=0, le=100)] = 1.5
-    start_length: Annotated[float, Field(gt=0)] = 1.0
+    start_length: Annotated[float, Field(ge=1e-6, le=1e6)] = 1.0
     place: Vector3 = (0.0, 0.0, 0.0)
     branch_distance: Annotated[float, Field(gt=0)] | None = None
     max_elements: Annotated[int, Field(ge=3, le=20_000_000)] = 50_000
-    max_pairs: Annotated[int, Field(ge=1)] = 2_000_000
+    max_pairs: Annotated[int, Field(ge=1, le=20_000_000)] = 2_000_000
     max_seconds: Annotated[float, Field(gt=0)] = 30.0
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+import shutil
 import sys
 from pathlib import Path
 
@@ -92,7 +93,18 @@ def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
     if (folder / "forms").is_dir():
         click.echo(f"forms: {shown}/forms")
     click.echo(f"log: {shown}/log (Parquet)")
-    click.echo(f"next: atoll show {shown}")
+    atoll = _called()
+    click.echo(f"next: {atoll} show {shown}")
     sql = "select island, max(fitness) from individuals group by island"
-    click.echo(f'      atoll query {shown} "{sql}"')
-    click.echo(f"      atoll export {shown} --best 3 --format glb,png -o forms")
+    click.echo(f'      {atoll} query {shown} "{sql}"')
+    click.echo(f"      {atoll} export {shown} --best 3 --format glb,png -o forms")
+
+
+def _called() -> str:
+    """Give the program as it can be called again from here: by its name only where the shell would find it."""
+    program = Path(sys.argv[0])
+    found = shutil.which("atoll")
+    if program.name != "atoll" or (found is not None and Path(found).resolve() == program.resolve()):
+        return "atoll"
+    here = Path.cwd()
+    return str(program.relative_to(here) if program.is_relative_to(here) else program)

@@ -49,6 +49,25 @@ def test_every_command_has_help_with_an_example(name) -> None:
     assert f"atoll {name}" in result.stdout.split("Example:")[1]
 
 
+@pytest.mark.parametrize(
+    ("error", "code", "said"), [(KeyboardInterrupt(), 130, "interrupted"), (MemoryError(), 1, "not enough memory")]
+)
+def test_ctrl_c_and_full_memory_are_told_in_a_line(monkeypatch, error, code, said) -> None:
+    """A Ctrl-C inside a compiled kernel comes wrapped in a SystemError."""
+
+    def strikes(*arguments: object) -> None:
+        if code == 130:
+            raise SystemError("returned a result with an exception set") from error
+        raise error
+
+    monkeypatch.setattr("growth.hemls.grow", strikes)
+    monkeypatch.setattr("orchestrator.growing.grow", strikes, raising=False)
+    result = atoll("grow", ROOT / "experiments" / "systems" / "square.hemls")
+    assert result.exit_code == code
+    assert said in result.stderr
+    assert "Traceback" not in result.stderr
+
+
 def test_help_lists_the_commands_and_imports_none_of_the_heavy_libraries() -> None:
     code = (
         "import sys\nfrom orchestrator.cli import main\n"

@@ -54,7 +54,6 @@ def test_empty_space_pulls_on_nothing_stops_nothing_and_counts_nothing() -> None
     assert not empty.inside(at).any()
     assert empty.wrong_side(at) == 0
     assert not empty.has_hard
-    assert not empty.has_soft
 
 
 def test_no_points_are_no_trouble() -> None:

@@ -55,7 +55,7 @@ def test_the_file_of_the_interface_page_is_read(tmp_path: Path) -> None:
         ("gravity: [0, 0, .nan]", "a.env.yaml:1: gravity.2: expected a finite number, got nan"),
         ("gravity: [0, -.inf, 0]", "a.env.yaml:1: gravity.1: expected a finite number, got -inf"),
         ("gravity: [0, 0, no]", "a.env.yaml:1: gravity.2: expected a valid number, got 'no'"),
-        ("gravity: [0, 0]", "a.env.yaml:1: gravity.2: expected a value for '2', got nothing; add the key"),
+        ("gravity: [0, 0]", "a.env.yaml:1: gravity: expected a list of three numbers: [x, y, z], got [0, 0]"),
         (
             "attractors:\n  - at: [0, 0, 1]\n    strenght: 2",
             "a.env.yaml:3: attractors.0.strenght: expected a known key, got 'strenght'; did you mean 'strength'?",
@@ -110,7 +110,10 @@ def test_the_file_of_the_interface_page_is_read(tmp_path: Path) -> None:
             "boundaries: [{shape: plane, at: [0, 0, 0], soft: 1}]",
             "a.env.yaml:1: boundaries.0.soft: expected a valid boolean, got 1",
         ),
-        ("boundaries: {shape: plane}", "a.env.yaml:1: boundaries: expected a valid tuple, got {'shape': 'plane'}"),
+        (
+            "boundaries: {shape: plane}",
+            "a.env.yaml:1: boundaries: expected a list, got {'shape': 'plane'}; write each entry after a '- '",
+        ),
     ],
 )
 def test_a_refusal_says_where_and_what(text: str, message: str, tmp_path: Path) -> None:

@@ -179,6 +179,22 @@ def test_growth_past_the_budget_is_a_result_that_says_so(how: dict[str, float], 
     assert failure.detail.startswith("step ")
 
 
+def test_the_seed_counts_and_may_not_lie_beyond_all_bounds() -> None:
+    text = " + ".join(["A"] * 20) + "\nA -> A\nAngle 30\nBranchAngle 30"
+    failure = grow(parse_system(text), SurfaceGrowth(steps=0, max_elements=19))
+    assert failure == Failure("budget", "20 edges where max_elements allows 19")
+    failure = grow(parse_system(text), SurfaceGrowth(steps=0, place=(0.0, 0.0, 2e9)))
+    assert failure == Failure("diverged", "a vertex lies farther out than 1e+09")
+
+
+def test_a_fan_of_thousands_is_over_the_budget_before_it_is_drawn() -> None:
+    fan = "[ + B B ] " * 2000
+    text = f"A + A + A\nA -> A {fan} A\nAngle 30\nBranchAngle 30"
+    failure = grow(parse_system(text), SurfaceGrowth(steps=1))
+    assert isinstance(failure, Failure)
+    assert failure.detail.startswith("step 1: 24024000 looks round the vertices of chains")
+
+
 def test_the_clock_is_a_net_behind_the_budget() -> None:
     ticks = itertools.count()
     failure = grow(parse_system(SQUARE), SurfaceGrowth(max_seconds=1.5), clock=lambda: float(next(ticks)))

@@ -59,8 +59,8 @@ def test_a_tilde_reverses_the_next_segment_only() -> None:
 BAD = {
     "": "f: expected an axiom such as 'A + B + A + B', got an empty file; write one",
     "A + B": "f:1:1: expected at least three edges in the axiom, got 2; the seed is a polygon",
-    "A + B + ": "f:1:8: expected an edge after it, got the end of the line",
-    "A + B + A ~": "f:1:12: expected an edge after it, got the end of the line",
+    "A + B + ": "f:1:8: expected an edge after '+', got the end of the line",
+    "A + B + A ~": "f:1:12: expected an edge after '~', got the end of the line",
     "A + B - A": "f:1:7: expected '+' or the end of the axiom, got '-'",
     "A + B + a": "f:1:9: expected an edge, a turtle command or a keyword, got 'a'",
     "A + B + A\nA -> [ B": "f:2:6: expected a ']' for this '[', got '['; brackets must balance",
@@ -68,7 +68,9 @@ BAD = {
     "A + B + A\nA ->": "f:2:5: expected a successor, got the end of the line",
     "A + B + A\n-> A": "f:2:1: expected an edge before '->', got '->'",
     "A + B + A\nA B": "f:2:4: expected '->' in a rule, got the end of the line",
-    "A + B + A\nA < B < A -> A": "f:2:1: expected 'A', 'A B', 'A < B', 'B > C' or 'A < B > C' before '->'",
+    "A + B + A\nA < B < A -> A": (
+        "f:2:1: expected 'A', 'A B', 'A < B', 'B > C' or 'A < B > C' before '->', got 'A < B < A'"
+    ),
     "A + B + A\nA -> B -> A": "f:2:8: expected one '->' a rule, got '->'",
     "A + B + A\nA -> + -": "f:2:6: expected at least one edge in a successor, got '+'",
     "A + B + A\nA -> B 4": "f:2:8: expected an edge or a turtle command",
