@@ -90,6 +90,8 @@ def _settings(request: Request) -> dict[str, Any]:
             raise InputError(f"--set {text}", "key=value", describe(text), "for example --set scale=1.5")
         given[path[0]] = value
     if request.steps is not None:
+        if request.steps < 0:
+            raise InputError("--steps", "a number of derivation steps, 0 or more", str(request.steps))
         given["steps"] = request.steps
     return given
 

@@ -17,7 +17,7 @@ from orchestrator.commands._options import emit, example, json_option
     ),
 )
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--steps", type=click.IntRange(min=0), help="Derivation steps.")
+@click.option("--steps", type=int, help="Derivation steps.")
 @click.option("--time", "until", type=float, help="For timed systems: the time to grow to.")
 @click.option("--environment", type=click.Path(path_type=Path), help="An environment file; empty space without.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="A setting of growth, such as scale.")
