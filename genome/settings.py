@@ -37,6 +37,25 @@ Vector3 = Annotated[tuple[float, float, float], BeforeValidator(_as_tuple)]
 
 M = TypeVar("M", bound=BaseModel)
 
+_PLAIN = {
+    "dict_type": "keys and values",
+    "mapping_type": "keys and values",
+    "model_type": "keys and values",
+    "model_attributes_type": "keys and values",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "string_type": "text",
+    "bool_type": "true or false",
+    "int_type": "a whole number",
+    "float_type": "a number",
+    "finite_number": "a finite number",
+    "too_short": "at least {min_length} of them",
+    "too_long": "at most {max_length} of them",
+    "string_too_long": "at most {max_length} characters",
+    "string_pattern_mismatch": "a name of letters, digits and . _ -, that begins with a letter or digit",
+}
+"""What to say instead of pydantic's own words."""
+
 
 def validated(
     model: type[M], data: object, source: str, prefix: Path = (), line_of: Callable[[Path], int | None] | None = None
@@ -66,9 +85,7 @@ def validated(
     try:
         return model.model_validate(dict(data))
     except ValidationError as error:
-        # A misspelt key is also a missing one; the misspelling says more.
-        errors = sorted(error.errors(include_url=False), key=lambda one: one["type"] != "extra_forbidden")
-        raise _translated(model, dict(errors[0]), source, prefix, line_of) from None
+        raise _translated(model, *_telling(error, data), source, prefix, line_of) from None
 
 
 def describe(value: object) -> str:
@@ -90,26 +107,58 @@ def _where(source: str, path: Path, line_of: Callable[[Path], int | None] | None
     return f"{place}: {key}" if key else place
 
 
+def _telling(error: ValidationError, data: Mapping[Any, Any]) -> tuple[dict[str, Any], Path]:
+    """Choose the complaint that says most, and give it with its key path in the data.
+
+    A misspelt key is also a missing one: the misspelling says more. Where a value may be of several types, pydantic
+    complains once for each, under made-up keys: the complaint that got deepest into the data says more.
+    """
+    errors = sorted(
+        (dict(one) for one in error.errors(include_url=False)), key=lambda e: e["type"] != "extra_forbidden"
+    )
+    paths = [_within(data, tuple(one["loc"]), missing=one["type"] == "missing") for one in errors]
+    best = 0
+    if len(paths[0]) < len(errors[0]["loc"]):
+        related = [i for i, path in enumerate(paths) if path[: len(paths[0])] == paths[0]]
+        best = max(related, key=lambda i: (len(paths[i]), -i))
+    return errors[best], paths[best]
+
+
+def _within(data: Any, loc: Path, *, missing: bool) -> Path:  # noqa: ANN401 - walks plain data
+    """Give the parts of a location that are keys of the data; a missing key is none, and yet counts."""
+    found: list[str | int] = []
+    for place, part in enumerate(loc):
+        if (isinstance(data, Mapping) and part in data) or (
+            isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data)
+        ):
+            data = data[part]
+        elif not (missing and place == len(loc) - 1):
+            continue
+        found.append(part)
+    return tuple(found)
+
+
 def _translated(
     model: type[BaseModel],
     error: dict[str, Any],
+    loc: Path,
     source: str,
     prefix: Path,
     line_of: Callable[[Path], int | None] | None,
 ) -> InputError:
-    path: Path = prefix + tuple(error["loc"])
-    where = _where(source, path, line_of)
+    where = _where(source, prefix + loc, line_of)
     kind = str(error["type"])
     if kind == "extra_forbidden":
-        key = str(path[-1])
-        known = _fields_at(model, tuple(error["loc"])[:-1])
-        return InputError(where, "a known key", f"'{key}'", near(key, known) if known else "")
+        known = _fields_at(model, loc[:-1])
+        return InputError(where, "a known key", f"'{loc[-1]}'", near(str(loc[-1]), known) if known else "")
     if kind == "missing":
-        return InputError(where, f"a value for '{path[-1]}'", "nothing", "add the key")
-    if isinstance(error.get("ctx"), dict) and isinstance(error["ctx"].get("error"), InputError):
-        inner: InputError = error["ctx"]["error"]
+        return InputError(where, f"a value for '{loc[-1]}'", "nothing", "add the key")
+    context = error.get("ctx") or {}
+    if isinstance(context.get("error"), InputError):
+        inner: InputError = context["error"]
         return InputError(where, inner.expected, inner.got, inner.remedy)
-    message = str(error["msg"]).removeprefix("Value error, ").removeprefix("Input should be ")
+    plain = _PLAIN.get(kind, "{msg}").format(msg=error["msg"], **context)
+    message = plain.removeprefix("Value error, ").removeprefix("Input should be ")
     return InputError(where, message, describe(error.get("input")))
 
 

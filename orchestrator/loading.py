@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -75,7 +76,7 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
 
     try:
         changed = apply_overrides(data, overrides)
-        changed.setdefault("name", path.name.split(".")[0])
+        changed.setdefault("name", re.sub(r"[^A-Za-z0-9_-]+", "-", path.name.split(".")[0]).strip("-_") or "run")
         notes = ("checkpoint: accepted, but this version writes no checkpoints yet",) if "checkpoint" in changed else ()
         return Loaded(_resolved(changed, source), source, path.resolve().parent, notes, locate)
     except InputError as error:

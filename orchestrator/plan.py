@@ -134,6 +134,9 @@ def _pairs(settings: ChannelSettings, islands: Sequence[IslandSpec], where: str)
             raise InputError(where, "two islands", f"'{source.name}' twice", "a channel to itself carries nothing")
         return [(source, target)]
     among = [settings.among] if isinstance(settings.among, str) else settings.among
+    if among is not None and len(set(among)) < max(len(among), 1):
+        got = "none" if not among else f"{', '.join(among)}"
+        raise InputError(f"{where}.among", "islands or groups, each once", got, "without 'among' it is all islands")
     members = list(islands) if among is None else _named(among, islands, f"{where}.among", single=False)
     edges = edges_of(settings.topology, len(members), f"{where}.topology")
     return [(members[source], members[target]) for source, target in edges]

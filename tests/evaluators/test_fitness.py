@@ -80,8 +80,8 @@ def test_nothing_is_better_than_the_target(target, score, other):
         ({}, "x.yaml: size.goal: expected a value for 'goal', got nothing; add the key"),
         ({"goal": "maximise", "scale": 0}, "x.yaml: size.scale: expected greater than 0, got 0"),
         ({"goal": "maximise", "weight": -1}, "x.yaml: size.weight: expected greater than or equal to 0, got -1"),
-        ({"goal": "maximise", "weight": True}, "x.yaml: size.weight: expected a valid number, got True"),
-        ({"goal": "maximise", "weight": "1"}, "x.yaml: size.weight: expected a valid number, got '1'"),
+        ({"goal": "maximise", "weight": True}, "x.yaml: size.weight: expected a number, got True"),
+        ({"goal": "maximise", "weight": "1"}, "x.yaml: size.weight: expected a number, got '1'"),
         ({"goal": "target", "value": math.nan}, "x.yaml: size.value: expected a finite number, got nan"),
         ({"goal": "target", "value": math.inf}, "x.yaml: size.value: expected a finite number, got inf"),
         (

@@ -121,7 +121,7 @@ def broken(path: str, value: object) -> dict:
 
 MISTAKES = [
     ("epoch", 0, "bits.yaml:5: epoch: expected greater than or equal to 1, got 0"),
-    ("epochs", "ten", "bits.yaml:4: epochs: expected a valid integer, got 'ten'"),
+    ("epochs", "ten", "bits.yaml:4: epochs: expected a whole number, got 'ten'"),
     ("generations", 7, "expected either 'epochs' or 'generations', got both (epochs 4, generations 7)"),
     ("seeds", 7, "seeds: expected a known key, got 'seeds'; did you mean 'seed'?"),
     ("schedule", "dataflow", "schedule: expected 'barrier', got 'dataflow', which comes with a later version"),

@@ -54,7 +54,7 @@ def test_the_file_of_the_interface_page_is_read(tmp_path: Path) -> None:
         ("[1, 2]", "a.env.yaml:1: expected keys and values, got [1, 2]"),
         ("gravity: [0, 0, .nan]", "a.env.yaml:1: gravity.2: expected a finite number, got nan"),
         ("gravity: [0, -.inf, 0]", "a.env.yaml:1: gravity.1: expected a finite number, got -inf"),
-        ("gravity: [0, 0, no]", "a.env.yaml:1: gravity.2: expected a valid number, got 'no'"),
+        ("gravity: [0, 0, no]", "a.env.yaml:1: gravity.2: expected a number, got 'no'"),
         ("gravity: [0, 0]", "a.env.yaml:1: gravity: expected a list of three numbers: [x, y, z], got [0, 0]"),
         (
             "attractors:\n  - at: [0, 0, 1]\n    strenght: 2",
@@ -108,7 +108,7 @@ def test_the_file_of_the_interface_page_is_read(tmp_path: Path) -> None:
         ),
         (
             "boundaries: [{shape: plane, at: [0, 0, 0], soft: 1}]",
-            "a.env.yaml:1: boundaries.0.soft: expected a valid boolean, got 1",
+            "a.env.yaml:1: boundaries.0.soft: expected true or false, got 1",
         ),
         (
             "boundaries: {shape: plane}",
