@@ -113,9 +113,8 @@ def _telling(error: ValidationError, data: Mapping[Any, Any]) -> tuple[dict[str,
     A misspelt key is also a missing one: the misspelling says more. Where a value may be of several types, pydantic
     complains once for each, under made-up keys: the complaint that got deepest into the data says more.
     """
-    errors = sorted(
-        (dict(one) for one in error.errors(include_url=False)), key=lambda e: e["type"] != "extra_forbidden"
-    )
+    errors: list[dict[str, Any]] = [dict(one) for one in error.errors(include_url=False)]
+    errors.sort(key=lambda one: one["type"] != "extra_forbidden")
     paths = [_within(data, tuple(one["loc"]), missing=one["type"] == "missing") for one in errors]
     best = 0
     if len(paths[0]) < len(errors[0]["loc"]):
@@ -128,14 +127,18 @@ def _within(data: Any, loc: Path, *, missing: bool) -> Path:  # noqa: ANN401 - w
     """Give the parts of a location that are keys of the data; a missing key is none, and yet counts."""
     found: list[str | int] = []
     for place, part in enumerate(loc):
-        if (isinstance(data, Mapping) and part in data) or (
-            isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data)
-        ):
+        if _holds(data, part):
             data = data[part]
         elif not (missing and place == len(loc) - 1):
             continue
         found.append(part)
     return tuple(found)
+
+
+def _holds(data: object, part: str | int) -> bool:
+    if isinstance(data, Mapping):
+        return part in data
+    return isinstance(data, (list, tuple)) and isinstance(part, int) and part < len(data)
 
 
 def _translated(
