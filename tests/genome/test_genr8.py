@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reference_mapper import OutOfGenesError, ReferenceMapper, TooLongError
 
+from genome import _kernels as kernels
 from genome.bnf import parse_bnf
 from genome.errors import InputError
 from genome.genr8 import Genr8Genome, Genr8Mapper, Mapped, compile_kernels, load_grammar, of_profile
@@ -242,6 +243,7 @@ class TestLoading:
 
 def test_the_kernels_can_be_compiled_ahead():
     compile_kernels()
+    assert kernels.expand_with_repair.signatures
 
 
 @pytest.mark.parametrize("genes", [(0, -1), (2**63,), (0.5,), ("a",)])

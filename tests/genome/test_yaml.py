@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import math
 from pathlib import Path
@@ -169,5 +168,9 @@ def test_every_json_text_is_read_as_json(data: dict[str, object], indent: int | 
 
 @given(st.text(alphabet="ab:-[]{},&*!<'\"\n #|>?%@0.", max_size=60))
 def test_any_text_is_read_or_refused_never_a_crash(text: str) -> None:
-    with contextlib.suppress(InputError):
-        parse_yaml(text, "a.yaml")
+    where = "a.yaml"
+    try:
+        where = parse_yaml(text, "a.yaml").source
+    except InputError as error:
+        where = error.where
+    assert where.startswith("a.yaml")
