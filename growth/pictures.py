@@ -155,7 +155,9 @@ def _staged(
     suns = sun_towards(azimuth - 58.0, 48.0)
     rays = Rays(bodies.corners)
     if level is None:
-        level = float(bodies.corners[..., 2].min()) - 0.003 * extent
+        low, high = float(bodies.corners[..., 2].min()), float(bodies.corners[..., 2].max())
+        # A flat form floats: its shadow would be thinner than the ground's tables can tell.
+        level = low - max(0.003 * extent, 0.05 * extent - 0.5 * (high - low))
     panes = joined(glass)
     return _Stage(
         bodies,
