@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from evaluators.registry import Criterion, resolve_all
+from genome.mishaps import let_pass, told
 from growth.protocol import Failure
 from growth.surface import Surface
 
@@ -43,6 +44,8 @@ def score(
     ------
     InputError
         For a name that is no criterion.
+    KeyboardInterrupt
+        On Ctrl-C.
     """
     found = criteria if isinstance(criteria, Mapping) else resolve_all(criteria)
     seen = _read_only(surface)
@@ -50,12 +53,12 @@ def score(
     for name, criterion in found.items():
         try:
             value: object = criterion(seen, environment)
-        except Exception as error:  # noqa: BLE001 - a criterion, a plug-in above all, may fail in any way
-            text = " ".join(f"{type(error).__name__}: {error}".split())
-            return Failure("evaluation", f"{name}: {text}")
-        if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
-            return Failure("evaluation", f"{name}: a number was expected, not {type(value).__name__}")
-        number = float(value)
+            if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
+                return Failure("evaluation", f"{name}: a number was expected, not {type(value).__name__}")
+            number = float(value)
+        except BaseException as error:  # noqa: BLE001 - a criterion, a plug-in above all, may fail in any way
+            let_pass(error)
+            return Failure("evaluation", f"{name}: {told(error)}")
         if not math.isfinite(number):
             return Failure("evaluation", f"{name}: {number} is not a finite number")
         scores[name] = number

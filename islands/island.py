@@ -21,6 +21,7 @@ from islands.migration.channel import Channel, Edge, Migrant, Packet
 from islands.migration.emigrants import emigrants
 from islands.migration.replacement import REPLACERS, beats
 from islands.records import Born, Crossing, Generation, Note, Records, Rescored
+from islands.scoring import scored
 from islands.selection import ranked, tournaments
 from islands.spec import IslandSpec
 from islands.streams import Purpose, stream
@@ -191,26 +192,21 @@ class Island(Generic[G]):
         children = []
         for place, birth in enumerate(births):
             identity = make_id(self.spec.number, state.counter + place)
-            scored = self._score(birth.genotype, identity, state.epoch, scribe)
-            children.append(Individual(identity, birth.genotype, scored.fitness, scored.scores, scored.error))
+            found = self._score(birth.genotype, identity, state.epoch, scribe)
+            children.append(Individual(identity, birth.genotype, found.fitness, found.scores, found.error))
             text = self.biology.encode(birth.genotype)
             row = (state.generation, state.epoch, identity, birth.parents, (), (), birth.origin, text)
             scribe.born.append(
-                Born(*row, scored.fitness, scored.scores, scored.error, scored.growth_ms, scored.evaluation_ms)
+                Born(*row, found.fitness, found.scores, found.error, found.growth_ms, found.evaluation_ms)
             )
         return State((*elite, *children), state.epoch, state.generation, state.counter + len(births))
 
     def _score(self, genotype: G, identity: int, epoch: int, scribe: _Scribe) -> Evaluation:
         self._pulse()
-        try:
-            scored = self.biology.evaluate(genotype)
-        except Exception as error:  # noqa: BLE001 - whatever a plug-in raises makes one invalid individual, no more
-            scored = Evaluation(None, error=f"exception: {type(error).__name__}: {error}")
-        if scored.fitness is not None and not math.isfinite(scored.fitness):
-            scored = Evaluation(None, error=f"evaluation: the fitness is {scored.fitness}")
-        for kind, detail in scored.notes:
+        found = scored(self.biology, genotype)
+        for kind, detail in found.notes:
             scribe.notes.append(Note(epoch, kind, {"id": identity, **detail}))
-        return scored
+        return found
 
     def _summarise(self, state: State[G], evaluations: int, started: float, scribe: _Scribe) -> None:
         """Record the generation: figures over the valid members, summed exactly so that no order matters."""
@@ -293,7 +289,7 @@ class Island(Generic[G]):
         genotype = self.biology.decode(migrant.genotype)
         if packet.scoring == self.biology.scoring:
             return Individual(migrant.id, genotype, migrant.fitness, migrant.scores, migrant.error)
-        scored = self._score(genotype, migrant.id, state.epoch, scribe)
-        row = (state.generation, state.epoch, migrant.id, "migrant", scored.fitness, scored.scores, ())
-        scribe.rescored.append(Rescored(*row, scored.error, scored.growth_ms + scored.evaluation_ms))
-        return Individual(migrant.id, genotype, scored.fitness, scored.scores, scored.error)
+        found = self._score(genotype, migrant.id, state.epoch, scribe)
+        row = (state.generation, state.epoch, migrant.id, "migrant", found.fitness, found.scores, ())
+        scribe.rescored.append(Rescored(*row, found.error, found.growth_ms + found.evaluation_ms))
+        return Individual(migrant.id, genotype, found.fitness, found.scores, found.error)

@@ -13,6 +13,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
 
+from genome.mishaps import plain
 from islands.records import Records
 from islands.schemas import TABLES, schema, stored
 from islands.spec import IslandSpec
@@ -133,7 +134,7 @@ def events_table(run: str, events: Sequence[Event]) -> pa.Table:
         time=pa.array([event.time.replace(tzinfo=None) for event in events], pa.timestamp("us")),
         epoch=[event.epoch for event in events],
         kind=_names([event.kind for event in events]),
-        detail=[json.dumps(event.detail, sort_keys=True, allow_nan=False) for event in events],
+        detail=[json.dumps(plain(event.detail), sort_keys=True, allow_nan=False) for event in events],
     )
 
 

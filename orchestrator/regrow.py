@@ -12,6 +12,7 @@ from genome.errors import InputError
 from islands.individual import Evaluation, Scores
 from islands.kinds.protocol import Biology
 from islands.kinds.registry import resolve_kind
+from islands.scoring import scored
 from islands.spec import IslandSpec
 from orchestrator.folder import RunFolder
 from orchestrator.loading import load_experiment
@@ -83,7 +84,7 @@ class Nursery:
     def score(self, logged: Logged) -> Evaluation:
         """Grow and score an individual again."""
         biology = self.biology(logged.island)
-        return biology.evaluate(biology.decode(logged.genotype))
+        return scored(biology, biology.decode(logged.genotype))
 
     def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
         """Write an individual's form as ISLAND-ID.SUFFIX."""
@@ -95,11 +96,11 @@ class Nursery:
         return biology.write_forms(biology.decode(logged.genotype), stem, formats, facts)
 
 
-def same(logged: Logged, scored: Evaluation) -> bool:
+def same(logged: Logged, found: Evaluation) -> bool:
     """Tell whether a scoring gave bit for bit what the log has.
 
     A growth that the clock broke off is replayed as such: how far it came is no property of the individual.
     """
     if logged.error.startswith("clock:"):
         return True
-    return (logged.fitness, logged.scores, logged.error) == (scored.fitness, scored.scores, scored.error)
+    return (logged.fitness, logged.scores, logged.error) == (found.fitness, found.scores, found.error)

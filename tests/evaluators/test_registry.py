@@ -97,6 +97,9 @@ class TestScore:
         ("name", "detail"),
         [
             ("raises", "RuntimeError: no luck"),
+            ("leaves", "SystemExit: 3"),
+            ("speaks_badly", "ValueError: bad \\udcff text"),
+            ("beyond_floats", "OverflowError: int too large to convert to float"),
             ("infinite", "inf is not a finite number"),
             ("undefined", "nan is not a finite number"),
             ("text", "a number was expected, not str"),

@@ -214,3 +214,40 @@ def test_a_pulse_that_raises_abandons_the_epoch() -> None:
     isle = Island(spec(), BitsKind().build(spec(), lambda: 0.0), 5, (), lambda: 0.0, stop)
     with pytest.raises(InterruptedError):
         isle.begin()
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (SystemExit("enough"), "exception: SystemExit: enough"),
+        (GeneratorExit(), "exception: GeneratorExit"),
+        (ValueError("bad \udcff\n text"), "exception: ValueError: bad \\udcff text"),
+        (ValueError("x" * 10**6), "exception: ValueError: xxx"),
+    ],
+)
+def test_whatever_an_evaluation_raises_is_one_invalid_individual_with_a_line(monkeypatch, error, told) -> None:
+    isle = island()
+
+    def raises(genotype: object) -> None:
+        raise error
+
+    monkeypatch.setattr(isle.biology, "evaluate", raises)
+    errors = {row.error for row in isle.begin().records.born}
+    (text,) = errors
+    assert text.startswith(told)
+    assert len(text) <= 400
+    assert text.encode().decode().isprintable()
+
+
+def test_an_error_that_a_kind_gives_is_made_one_line_too(monkeypatch) -> None:
+    isle = island()
+    given = dataclasses.replace(isle.biology.evaluate((1,) * LENGTH), fitness=None, error="rules: a\nb \udcff")
+    monkeypatch.setattr(isle.biology, "evaluate", lambda genotype: given)
+    assert {row.error for row in isle.begin().records.born} == {"rules: a b \\udcff"}
+
+
+def test_ctrl_c_in_an_evaluation_is_no_mishap(monkeypatch) -> None:
+    isle = island()
+    monkeypatch.setattr(isle.biology, "evaluate", lambda genotype: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        isle.begin()

@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 from archipelagos import island, ring, spec
 
+from islands.individual import Evaluation
 from islands.log import LogWriter
 from islands.migration.channel import Channel
 from islands.schemas import TABLES, VERSION, columns, schema
@@ -128,3 +129,17 @@ def test_all_readers_agree_with_a_plain_glob(written) -> None:
 def test_nothing_buffered_writes_nothing(tmp_path) -> None:
     assert LogWriter(tmp_path, "test", [spec()], lambda: NOON).flush() == []
     assert not list(tmp_path.iterdir())
+
+
+def test_an_error_and_a_detail_that_are_no_utf_8_lose_nothing_of_the_log(tmp_path, monkeypatch) -> None:
+    isle = island(0)
+    given = Evaluation(None, error="rules: \udcff", notes=(("odd", {"why": "a\n\udcff", "how much": float("inf")}),))
+    monkeypatch.setattr(isle.biology, "evaluate", lambda genotype: given)
+    log = LogWriter(tmp_path, "test", [isle.spec], lambda: NOON)
+    log.add(0, 0, isle.begin().records)
+    log.tell(0, 0, "form", {"detail": "b\udcff"})
+    assert len(log.flush()) == 3
+    assert set(pq.read_table(tmp_path / "individuals")["error"].to_pylist()) == {"rules: \\udcff"}
+    details = [json.loads(text) for text in pq.read_table(tmp_path / "events")["detail"].to_pylist()]
+    assert details[0] == {"id": 0, "why": "a \\udcff", "how much": "inf"}
+    assert details[-1] == {"detail": "b\\udcff"}

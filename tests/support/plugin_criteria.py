@@ -11,6 +11,18 @@ def raises(surface, environment):
     raise RuntimeError("no\n  luck")
 
 
+def leaves(surface, environment):
+    raise SystemExit(3)
+
+
+def speaks_badly(surface, environment):
+    raise ValueError("bad \udcff text")
+
+
+def beyond_floats(surface, environment):
+    return 10**400
+
+
 def infinite(surface, environment):
     return float("inf")
 
