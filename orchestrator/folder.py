@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import io
 import json
 import os
 import platform
+import secrets
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -26,6 +29,10 @@ from orchestrator.plan import make_plan
 MANIFEST: Final = "manifest.json"
 EXPERIMENT: Final = "experiment.yaml"
 DEFAULT_RUNS: Final = Path("runs")
+LONGEST_NAME: Final = 100
+"""Characters of a run's name, as of an experiment's: the run's folder holds the experiment under its own name."""
+TAKEN: Final = (errno.EEXIST, errno.ENOTEMPTY, errno.ENOTDIR)
+"""What a folder's move fails with where something stands already."""
 PACKAGES: Final = ("atoll", "numpy", "numba", "deap", "pyarrow", "ray", "trimesh")
 
 
@@ -98,28 +105,35 @@ def choose_path(runs_dir: Path, name: str, *, explicit: bool) -> Path:
     Raises
     ------
     InputError
-        When a name that was asked for is taken.
+        When a name that was asked for is taken, or is too long.
     """
-    path = runs_dir / name
-    if not path.exists():
-        return path
-    if explicit:
-        raise InputError(f"--name {name}", "a name that is free", f"{path}, which exists", "choose another name")
-    number = 2
-    while (runs_dir / f"{name}-{number}").exists():
+    if explicit and len(name) > LONGEST_NAME:
+        raise InputError("--name", f"at most {LONGEST_NAME} characters", str(len(name)), "choose a shorter name")
+    path, number = runs_dir / name, 1
+    # Links that lead nowhere count as taken, too: a folder cannot be moved to their place.
+    while os.path.lexists(path):
+        if explicit:
+            raise InputError(f"--name {name}", "a name that is free", f"{path}, which exists", "choose another name")
         number += 1
-    return runs_dir / f"{name}-{number}"
+        mark = f"-{number}"
+        path = runs_dir / f"{name[: LONGEST_NAME - len(mark)]}{mark}"
+    return path
 
 
-def create(path: Path, loaded: Loaded, started: datetime, facts: Mapping[str, Any]) -> RunFolder:
+def create(
+    runs_dir: Path, name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any], *, explicit: bool
+) -> RunFolder:
     """Make a run's folder, with the experiment and every file that it names.
 
-    It is built beside its place and moved there when it is complete.
+    It is built beside its place and moved there when it is complete. The move claims the name: of runs that start
+    together one has it, and the others get the next numbers.
 
     Parameters
     ----------
-    path
-        The folder to make.
+    runs_dir
+        Where run folders stand; made if need be.
+    name, explicit
+        The run's name, and whether it was asked for.
     loaded
         The experiment; its name becomes the folder's.
     started
@@ -130,24 +144,42 @@ def create(path: Path, loaded: Loaded, started: datetime, facts: Mapping[str, An
     Raises
     ------
     InputError
-        When the folder cannot be made.
+        When the folder cannot be made, or the name is taken.
     """
-    draft = path.parent / f".{path.name}.{os.getpid()}.partial"
+    is_new = not runs_dir.exists()
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        draft.mkdir()
+        runs_dir.mkdir(parents=True, exist_ok=True)
         try:
-            data = {**_with_files_kept(loaded, draft), "name": path.name}
-            (draft / EXPERIMENT).write_text(_as_yaml(data), encoding="utf-8")
-            _write_manifest(draft, _first_manifest(path.name, loaded, started, facts))
-            draft.rename(path)
+            while True:
+                path = choose_path(runs_dir, name, explicit=explicit)
+                if _made(path, loaded, started, facts):
+                    return RunFolder(path.resolve())
         except BaseException:
-            shutil.rmtree(draft, ignore_errors=True)
+            if is_new:
+                with contextlib.suppress(OSError):  # another run may stand in it by now
+                    runs_dir.rmdir()
             raise
     except OSError as error:
-        got = f"{path} ({error.strerror or error})"
+        got = f"{runs_dir} ({error.strerror or error})"
         raise InputError("--runs-dir", "a folder that a run can be written to", got) from None
-    return RunFolder(path.resolve())
+
+
+def _made(path: Path, loaded: Loaded, started: datetime, facts: Mapping[str, Any]) -> bool:
+    """Make the folder; ``False`` when another run has come to this place meanwhile."""
+    # Not by the process's id: on a shared disk two machines may have the same.
+    draft = path.parent / f".{path.name}.{secrets.token_hex(4)}.partial"
+    draft.mkdir()
+    try:
+        data = {**_with_files_kept(loaded, draft), "name": path.name}
+        (draft / EXPERIMENT).write_text(_as_yaml(data), encoding="utf-8")
+        _write_manifest(draft, _first_manifest(path.name, loaded, started, facts))
+        draft.rename(path)
+    except BaseException as error:
+        shutil.rmtree(draft, ignore_errors=True)
+        if isinstance(error, OSError) and error.errno in TAKEN and os.path.lexists(path):
+            return False
+        raise
+    return True
 
 
 def remove(folder: RunFolder) -> None:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import signal
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from types import FrameType
 from typing import Any, Final
 
 from genome.errors import InputError
@@ -25,6 +21,7 @@ from orchestrator.folder import RunFolder, choose_path, create, remove
 from orchestrator.loading import Loaded, load_experiment
 from orchestrator.plan import Plan, host_plans, make_plan
 from orchestrator.progress import Progress
+from orchestrator.signals import Signals
 
 POLL_S: Final = 0.25
 LEAST_EPOCH_S: Final = 600.0
@@ -96,9 +93,10 @@ def make_backend(loaded: Loaded, address: str | None) -> Backend:
     Raises
     ------
     InputError
-        When the machine has too few CPUs for its hosts, or an address is given to the in-process backend.
+        When the machine has too few CPUs for its hosts, the address has no form that a driver can take, or one is given
+        to the in-process backend.
     """
-    from orchestrator.backends.cluster import hosts_for, machine_cpus
+    from orchestrator.backends.cluster import check_address, hosts_for, machine_cpus
     from orchestrator.backends.inline import InlineBackend
     from orchestrator.backends.ray import RayBackend
 
@@ -108,7 +106,9 @@ def make_backend(loaded: Loaded, address: str | None) -> Backend:
         if address is not None:
             raise InputError("--address", "no address with backend: inline", f"'{address}'", "set backend: ray")
         return InlineBackend()
-    if address is None:
+    if address is not None:
+        check_address(address)
+    else:
         try:
             hosts_for(experiment.hosts, islands, machine_cpus())
         except InputError as error:
@@ -138,59 +138,56 @@ def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str |
     InputError, RunFailedError
         When it cannot start; there is no folder then.
     KeyboardInterrupt
-        On a second Ctrl-C.
+        On a second Ctrl-C, and on a first one before the run has a folder.
     """
     started, clock = datetime.now(UTC), time.perf_counter()
     plan, seconds = prepare(loaded)
-    path = choose_path(runs_dir, name or loaded.experiment.name, explicit=name is not None)
-    stop, closing = threading.Event(), threading.Event()
-    with _interruptible(stop, closing, backend):
+    explicit, name = name is not None, name or loaded.experiment.name
+    choose_path(runs_dir, name, explicit=explicit)
+    with Signals(backend.interrupt) as signals:
         try:
-            hosts = backend.open()
+            hosts = _opened(backend, signals)
             facts = {"backend": loaded.experiment.backend, "hosts": hosts, "islands": len(plan.islands)}
-            folder = create(path, loaded, started, facts)
+            folder = create(runs_dir, name, loaded, started, facts, explicit=explicit)
+            drive: _Drive | None = None
             try:
-                return _Drive(folder, backend, hosts, seconds, progress, clock).to_the_end(stop)
-            except BaseException:
-                _conclude_badly(folder)
+                drive = _Drive(folder, backend, hosts, seconds, progress, clock)
+                return drive.to_the_end(signals.stop)
+            except BaseException as error:
+                signals.close()
+                _conclude_badly(folder, drive, error)
                 raise
         finally:
-            closing.set()
+            signals.close()
             progress.close()
             backend.close()
 
 
-def _conclude_badly(folder: RunFolder) -> None:
-    """Close the manifest of a run that was broken off hard."""
-    if folder.path.exists() and folder.manifest().get("status") == "running":
-        folder.update(status="stopped", ended=datetime.now(UTC).isoformat(timespec="seconds"))
-
-
-@contextmanager
-def _interruptible(stop: threading.Event, closing: threading.Event, backend: Backend) -> Iterator[None]:
-    """Let the first Ctrl-C (or SIGTERM) ask for a clean stop, and the second break off.
-
-    Once all is being closed, which takes a second or two, no further one is heard: it would leave Ray's processes.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def asked(number: int, frame: FrameType | None) -> None:
-        del number, frame
-        if closing.is_set():
-            return
-        if stop.is_set():
-            raise KeyboardInterrupt
-        stop.set()
-        backend.interrupt()
-
-    before = {number: signal.signal(number, asked) for number in (signal.SIGINT, signal.SIGTERM)}
+def _opened(backend: Backend, signals: Signals) -> int:
+    """Open the backend; a run that was asked to stop meanwhile does not begin."""
     try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+        hosts = backend.open()
+    except RunFailedError:
+        # A Ctrl-C in a terminal reaches helpers of the backend too, whose failure is then no news.
+        if signals.stop.is_set():
+            raise KeyboardInterrupt from None
+        raise
+    signals.listen()
+    if signals.stop.is_set():
+        raise KeyboardInterrupt
+    return hosts
+
+
+def _conclude_badly(folder: RunFolder, drive: _Drive | None, error: BaseException) -> None:
+    """Close the manifest of a run that was broken off hard, with what the driver knows."""
+    if not folder.path.exists() or folder.manifest().get("status") != "running":
+        return
+    if isinstance(error, KeyboardInterrupt):
+        status, reason = "stopped", "broken off by a second Ctrl-C: what the hosts had not written yet is lost"
+    else:
+        status, reason = "failed", f"{type(error).__name__}: {error}"
+    facts = drive.facts() if drive is not None else {}
+    folder.update(status=status, ended=datetime.now(UTC).isoformat(timespec="seconds"), error=reason, **facts)
 
 
 class _Drive:
@@ -245,32 +242,30 @@ class _Drive:
                         self.stood = time.perf_counter()
                     self.backend.perform(instruction)
 
+    def facts(self) -> dict[str, Any]:
+        """Give how far the run has come: keys of the manifest and of the outcome."""
+        return {
+            "wall_s": round(time.perf_counter() - self.clock, 3),
+            "startup_s": round((self.stood or time.perf_counter()) - self.clock, 3),
+            "generations": max((row.generation for row in self.latest), default=0),
+            "evaluations": self.evaluations,
+            "best": best_row(self.latest),
+        }
+
     def _report(self, epoch: int) -> None:
         self.latest = self.backend.summaries(epoch)
         self.evaluations += sum(row.evaluations for row in self.latest)
         self.progress.epoch(epoch, self.latest)
 
     def _conclude(self, end: machine.Conclude) -> Outcome:
-        best = best_row(self.latest)
-        outcome = Outcome(
-            folder=self.folder.path,
-            status=end.status,
-            reason=end.reason,
-            islands=len(self.plan.islands),
-            generations=max((row.generation for row in self.latest), default=0),
-            evaluations=self.evaluations,
-            best=best,
-            wall_s=round(time.perf_counter() - self.clock, 3),
-            startup_s=round((self.stood or time.perf_counter()) - self.clock, 3),
-        )
+        facts, islands = self.facts(), len(self.plan.islands)
+        outcome = Outcome(folder=self.folder.path, status=end.status, reason=end.reason, islands=islands, **facts)
         if end.status == "failed" and not end.settled:
             remove(self.folder)
             raise RunFailedError(end.reason)
         self._tell({"finished": "finish", "failed": "failure", "stopped": "stop"}[end.status], {"reason": end.reason})
-        facts = {"generations": outcome.generations, "evaluations": outcome.evaluations, "best": best}
         ended = datetime.now(UTC).isoformat(timespec="seconds")
-        times = {"wall_s": outcome.wall_s, "startup_s": outcome.startup_s}
-        self.folder.update(status=end.status, ended=ended, error=end.reason, **times, **facts)
+        self.folder.update(status=end.status, ended=ended, error=end.reason, **facts)
         return outcome
 
     def _tell(self, kind: str, detail: dict[str, Any]) -> None:

@@ -85,6 +85,24 @@ def settle_environment(*, local: bool) -> None:
         os.environ.setdefault(name, value)
 
 
+def check_address(address: str) -> None:
+    """Refuse what is no address of a cluster that a driver can join.
+
+    Raises
+    ------
+    InputError
+        Unless it is ``auto`` or ``host:port``.
+    """
+    host, _, port = address.rpartition(":")
+    if "://" in address:
+        remedy = "run atoll on a machine of the cluster (Ray Client, ray://, is not part of Atoll)"
+    elif address == "auto" or (host and port.isdecimal()):
+        return
+    else:
+        remedy = ""
+    raise InputError("--address", "host:port or auto", f"'{address}'", remedy)
+
+
 def reach(address: str) -> None:
     """Try the address before the driver does: Ray has no deadline of its own for connecting.
 
@@ -98,7 +116,8 @@ def reach(address: str) -> None:
     RunFailedError
         When no cluster answers there.
     """
-    if address != "auto" and "://" not in address:
+    check_address(address)
+    if address != "auto":
         _knock(address)
     try:
         probe = subprocess.run(  # noqa: S603 - this interpreter, with an address as its argument
@@ -119,8 +138,6 @@ def reach(address: str) -> None:
 def _knock(address: str) -> None:
     """See whether anything listens at ``host:port``."""
     host, _, port = address.rpartition(":")
-    if not host or not port.isdecimal():
-        raise InputError("--address", "host:port, ray://host:port or auto", f"'{address}'")
     try:
         socket.create_connection((host, int(port)), timeout=CONNECT_S).close()
     except (OSError, OverflowError) as error:

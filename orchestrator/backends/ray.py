@@ -26,6 +26,7 @@ from orchestrator.archipelago import (
     HostReady,
     Spawn,
 )
+from orchestrator.backends.apart import sessions_of_their_own
 from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
 from orchestrator.backends.protocol import Deadlines, RunFailedError
 
@@ -77,6 +78,8 @@ class RayBackend:
             When more hosts are asked for than there is room for.
         RunFailedError
             When Ray does not start, or the cluster is not reached or has no CPU free.
+        KeyboardInterrupt
+            On a SIGTERM while Ray starts.
         """
         if self._address is None:
             self._cpus = machine_cpus()
@@ -97,7 +100,11 @@ class RayBackend:
         }
         self._opened = True
         try:
-            ray.init(**quiet, **(local if self._address is None else {"address": self._address}))
+            with sessions_of_their_own():
+                ray.init(**quiet, **(local if self._address is None else {"address": self._address}))
+        except SystemExit:
+            # Ray has a handler of its own for a SIGTERM that comes while it starts.
+            raise KeyboardInterrupt from None
         except Exception as error:  # noqa: BLE001 - Ray's start raises errors of many kinds
             where = "Ray did not start" if self._address is None else f"no Ray cluster at {self._address}"
             raise RunFailedError(f"{where}: {_one_line(error)}") from None

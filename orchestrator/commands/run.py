@@ -12,6 +12,7 @@ import click
 
 from genome.errors import InputError
 from orchestrator.commands._options import emit, example, json_option
+from orchestrator.unbroken import Unbroken
 
 
 @click.command(
@@ -22,16 +23,16 @@ from orchestrator.commands._options import emit, example, json_option
     ),
 )
 @click.argument("experiment", type=click.Path(path_type=Path))
-@click.option("--runs-dir", type=click.Path(path_type=Path), default=Path("runs"), show_default=True,
+@click.option("--runs-dir", type=click.Path(), default="runs", show_default=True,
               help="Where run folders stand.")  # fmt: skip
 @click.option("--name", help="The run's name; by default the experiment's, with a number if it is taken.")
 @click.option("--seed", type=click.IntRange(min=0, max=2**63 - 1), help="In place of the experiment's seed.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY.PATH=VALUE", help="In place of any of its settings.")
-@click.option("--address", help="A running Ray cluster; a local Ray is started without.")
+@click.option("--address", help="A running Ray cluster, host:port or auto; a local Ray is started without.")
 @json_option
 def command(
     experiment: Path,
-    runs_dir: Path,
+    runs_dir: str,
     name: str | None,
     seed: int | None,
     overrides: tuple[str, ...],
@@ -39,16 +40,32 @@ def command(
     as_json: bool,
 ) -> None:
     """Run EXPERIMENT, a YAML file, and write its forms and log under the runs folder."""
+    if not runs_dir.strip():  # as a path it would be the current folder
+        raise InputError("--runs-dir", "a folder", f"'{runs_dir}'", "'.' is the current one")
+    if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
+        raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")
+    if seed is not None:
+        overrides = (*overrides, f"seed={seed}")
+    # Progress that nobody reads, as after `atoll run ... | head -1` or in a terminal that was closed, stops no run.
+    with contextlib.redirect_stdout(Unbroken(sys.stdout)), contextlib.redirect_stderr(Unbroken(sys.stderr)):
+        _run(experiment, Path(runs_dir), name, overrides, address, as_json=as_json)
+
+
+def _run(
+    experiment: Path,
+    runs_dir: Path,
+    name: str | None,
+    overrides: tuple[str, ...],
+    address: str | None,
+    *,
+    as_json: bool,
+) -> None:
     from orchestrator.backends.protocol import RunFailedError
     from orchestrator.cli import Complaint
     from orchestrator.loading import load_experiment
     from orchestrator.progress import progress_on
     from orchestrator.run import make_backend, run_experiment
 
-    if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
-        raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")
-    if seed is not None:
-        overrides = (*overrides, f"seed={seed}")
     loaded = load_experiment(experiment, overrides)
     backend = make_backend(loaded, address)
     progress = progress_on(sys.stderr if as_json else sys.stdout)

@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import psutil
+import pyarrow.dataset as ds
 import pytest
 
 from experiments import bits, run, write
@@ -125,16 +126,21 @@ def strangers_can_reach(process: subprocess.Popen) -> list[str]:
 
 
 @pytest.mark.ray
-def test_ctrl_c_stops_cleanly(tmp_path, clean) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_to_the_whole_group_stops_cleanly(tmp_path, clean, number) -> None:
+    """As from a terminal or from ``timeout``: the driver hears it, and the hosts live to write their log."""
     process = start(tmp_path, slow())
     until_settled(tmp_path, process)
     assert strangers_can_reach(process) == []
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: every process of the group gets it
+    os.killpg(process.pid, number)
     told, _ = ended(process, 130)
     assert told["status"] == "stopped"
     manifest = json.loads((tmp_path / "runs/bits/manifest.json").read_text(encoding="utf-8"))
-    assert manifest["status"] == "stopped"
+    assert (manifest["status"], manifest["error"]) == ("stopped", "asked to stop")
     assert manifest["ended"]
+    assert manifest["best"] == told["best"]
+    counts = ds.dataset(tmp_path / "runs/bits/log/generations").to_table(columns=["evaluations"])["evaluations"]
+    assert sum(counts.to_pylist()) == manifest["evaluations"] == told["evaluations"]
     assert list((tmp_path / "runs/bits/forms").iterdir())
 
 
@@ -189,8 +195,9 @@ def test_something_else_at_the_address_is_given_up(monkeypatch) -> None:
         address = f"127.0.0.1:{server.getsockname()[1]}"
         with pytest.raises(RunFailedError, match=f"no Ray cluster at {address}: .* within 4 s"):
             cluster.reach(address)
-    with pytest.raises(InputError, match="--address: expected host:port"):
-        cluster.reach("nonsense")
+    for address in ("nonsense", "ray://127.0.0.1:10001", "127.0.0.1:"):
+        with pytest.raises(InputError, match="--address: expected host:port or auto, got"):
+            cluster.reach(address)
 
 
 def test_hosts_are_as_many_as_there_is_room_and_use_for() -> None:
