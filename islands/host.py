@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, Final, final
 
 from genome.errors import InputError
+from genome.mishaps import one_line
 from growth.protocol import Clock
 from islands.individual import Individual
 from islands.island import Advance, Island, State
@@ -34,6 +35,9 @@ THREAD_VARIABLES: Final = (
     "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMBA_NUM_THREADS",
     "VECLIB_MAXIMUM_THREADS",
 )  # fmt: skip
+
+MOST_REASON: Final = 160
+"""Characters of the reason that a summary gives."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +63,7 @@ class HostPlan:
     flush_epochs
         The log is written every so many epochs.
     best_forms
-        How many forms of each island are written at the end.
+        How many different forms of each island are written at the end.
     """
 
     host: int
@@ -89,6 +93,8 @@ class IslandSummary:
         Figures of its members.
     champion
         Fitness and id of the best individual that it ever bred, member still or not; of equal ones the older.
+    trouble
+        The commonest reason why its members are invalid, when all are; otherwise empty.
     """
 
     island: str
@@ -100,6 +106,7 @@ class IslandSummary:
     invalid: int
     migrants: int
     champion: tuple[float, int] | None
+    trouble: str = ""
 
 
 class StoppedError(Exception):
@@ -214,9 +221,8 @@ class Host:
         return tuple(files)
 
     def _write_forms(self, island: Island[Any], deme: Sequence[Individual[Any]], folder: Path) -> list[str]:
-        valid = [member for member in ranked(deme) if member.fitness is not None]
         files: list[str] = []
-        for rank, member in enumerate(valid[: self._plan.best_forms], start=1):
+        for rank, member in enumerate(best_forms(island, deme, self._plan.best_forms), start=1):
             stem = folder / f"{island.spec.name}-best{rank}"
             facts: dict[str, str | float | bool] = {
                 "run": self._plan.run,
@@ -259,11 +265,37 @@ class Host:
             invalid=last.invalid,
             migrants=sum(crossing.accepted for crossing in step.records.crossings),
             champion=self._champions.get(number),
+            trouble=most_frequent_error(step.state.deme) if last.best is None else "",
         )
 
     def _pulse(self) -> None:
         if self._stop.is_set():
             raise StoppedError
+
+
+def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int) -> list[Individual[Any]]:
+    """Give the best members of different forms, best first; fewer where the deme has no more forms.
+
+    Members whose scores are equal to the last bit count as one form, since different genomes may grow into one: the
+    one of the lowest id stands for it. Of a kind without scores genotypes are compared.
+    """
+    forms: dict[object, Individual[Any]] = {}
+    for member in ranked(deme):
+        if len(forms) == count or member.fitness is None:
+            break
+        forms.setdefault(member.scores or island.biology.encode(member.genotype), member)
+    return list(forms.values())
+
+
+def most_frequent_error(deme: Sequence[Individual[Any]]) -> str:
+    """Give an error that is typical of a deme: of the commonest reason the commonest text; empty without any."""
+    errors = [member.error for member in deme if member.error]
+    if not errors:
+        return ""
+    reasons = [error.partition(":")[0] for error in errors]
+    commonest = Counter(reasons).most_common(1)[0][0]
+    texts = [error for error, reason in zip(errors, reasons, strict=True) if reason == commonest]
+    return one_line(Counter(texts).most_common(1)[0][0], MOST_REASON)
 
 
 def pin_threads() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Protocol, TextIO, final
 
@@ -71,6 +72,22 @@ def clock_text(seconds: float) -> str:
 
 
 @final
+class Barren:
+    """Says once of each island that all of its members are invalid, and why."""
+
+    def __init__(self) -> None:
+        self._told: dict[str, None] = {}
+
+    def notes(self, rows: Iterable[IslandSummary]) -> list[str]:
+        """Give a line for each island of which nothing was said yet; beyond ``MOST_ROWS`` at once, one for the rest."""
+        fresh = [row for row in rows if row.trouble and row.island not in self._told]
+        self._told.update((row.island, None) for row in fresh)
+        lines = [f"note: all {row.invalid} of {row.island} are invalid, most often: {row.trouble}" for row in fresh]
+        rest = len(lines) - MOST_ROWS
+        return lines if rest <= 0 else [*lines[:MOST_ROWS], f"note: and all of {rest} more islands"]
+
+
+@final
 class PlainLines:
     """A line an epoch."""
 
@@ -79,6 +96,7 @@ class PlainLines:
         self._epochs = 0
         self._pace = Pace(0, 0)
         self._migrants = 0
+        self._barren = Barren()
 
     def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
         """Say what is about to happen."""
@@ -99,6 +117,8 @@ class PlainLines:
             f"epoch {epoch}/{self._epochs}  generation {rows[0].generation}  best {_number(best)}  "
             f"mean {_number(mean)}  invalid {invalid}  migrants {self._migrants}  left {clock_text(left)}"
         )
+        for text in self._barren.notes(rows):
+            self.note(text)
 
     def note(self, text: str) -> None:
         """Write a line."""
@@ -119,6 +139,7 @@ class LiveTable:
         self._pace = Pace(0, 0)
         self._migrants: dict[str, int] = {}
         self._title = ""
+        self._barren = Barren()
 
     def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
         """Draw the empty table."""
@@ -137,6 +158,8 @@ class LiveTable:
             self._migrants[row.island] = self._migrants.get(row.island, 0) + row.migrants
         if self._live is not None:
             self._live.update(self._table(epoch, rows), refresh=True)
+        for text in self._barren.notes(rows):
+            self.note(text)
 
     def note(self, text: str) -> None:
         """Write a line above the table."""
