@@ -21,6 +21,18 @@ from orchestrator.query import ask
 
 COLUMNS = "id, island, genotype, fitness, scores, error"
 
+FORMS = """
+    with top as (
+        select id, fitness, if(cardinality(scores) = 0, genotype, scores::varchar) as form
+        from individuals where fitness is not null order by fitness desc, id limit {among}
+    ), alike as (
+        select form, fitness, min(id) as id from top group by form, fitness
+    ), forms as (
+        select max(fitness) as fitness, arg_max(id, fitness) as id from alike group by form
+    )
+    select id from forms order by fitness desc, id limit {count}
+"""
+
 
 @dataclass(frozen=True, slots=True)
 class Logged:
@@ -52,8 +64,19 @@ def by_id(folder: RunFolder, ids: Sequence[int]) -> list[Logged]:
 
 
 def best(folder: RunFolder, count: int) -> list[Logged]:
-    """Find the best individuals, best first; of equal ones the older."""
-    return _logged(folder, f"where fitness is not null order by fitness desc, id limit {int(count)}")
+    """Find the best individuals of different forms, best first; of equal fitness the lower id.
+
+    Those whose scores are equal to the last bit count as one form, whatever their genotypes and islands: the one of
+    the highest fitness stands for it, of equal ones the lowest id. Of a kind without scores genotypes are compared.
+    """
+    among, everyone = count if count == 1 else 64 * count, 0
+    while True:
+        # Sought among the best alone first, since a log may hold millions.
+        rows = ask(folder.log, FORMS.format(among=int(among), count=int(count))).rows
+        everyone = everyone or int(ask(folder.log, "select count(fitness) from individuals").rows[0][0])
+        if len(rows) == count or among >= everyone:
+            return by_id(folder, [int(identity) for (identity,) in rows])
+        among *= 16
 
 
 def _logged(folder: RunFolder, clause: str) -> list[Logged]:

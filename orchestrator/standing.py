@@ -13,8 +13,8 @@ from orchestrator.regrow import best
 ISLANDS = """
     with latest as (
         select island, any_value(species) as species, max(generation) as generation,
-               sum(evaluations)::bigint as evaluations, arg_max(best, generation) as best,
-               arg_max(mean, generation) as mean, arg_max(invalid, generation) as invalid,
+               sum(evaluations)::bigint as evaluations, arg_max_null(best, generation) as best,
+               arg_max_null(mean, generation) as mean, arg_max(invalid, generation) as invalid,
                sum(wall_ms) as wall_ms
         from generations group by island
     ), joined as (

@@ -28,7 +28,7 @@ def command(run: str, sql: str, form: str, output: Path | None, as_json: bool) -
     """Put an SQL query to RUN's log.
 
     The views are individuals, evaluations, generations, migrations and events; the log of a run that still goes on
-    can be read too.
+    can be read too. One query that only reads, in DuckDB's SQL; columns of one name are numbered (a, a_1).
     """
     from orchestrator import query
     from orchestrator.folder import open_run
@@ -58,5 +58,8 @@ def command(run: str, sql: str, form: str, output: Path | None, as_json: bool) -
 def _put(content: bytes, output: Path | None) -> None:
     if output is None:
         click.echo(content, nl=False)
-    else:
+        return
+    try:
         output.write_bytes(content)
+    except OSError as error:
+        raise InputError("-o", "a file that can be written", f"{output} ({error.strerror or error})") from None

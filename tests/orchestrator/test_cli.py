@@ -252,3 +252,145 @@ def test_a_failed_run_exits_with_one_and_says_why(tmp_path, monkeypatch) -> None
     assert result.exit_code == 1
     assert last_json(result)["status"] == "failed"
     assert "No space left" in result.stderr
+
+
+def test_a_folder_whose_name_holds_patterns_can_be_read_by_every_command(done, tmp_path) -> None:
+    import shutil
+
+    odd = tmp_path / "a[1]*? 'q'" / "run[x]"
+    shutil.copytree(done, odd)
+    assert atoll("query", odd, "select count(*) from individuals").exit_code == 0
+    assert atoll("query", odd, "select * from events", "--format", "parquet", "-o", odd / "x").exit_code == 0
+    best = last_json(atoll("show", odd, "--json"))["best"]
+    assert best == last_json(atoll("show", done, "--json"))["best"]
+    assert atoll("replay", odd, "--id", best["id"]).exit_code == 0
+    assert atoll("export", odd, "--format", "txt", "-o", odd / "forms [2]").exit_code == 0
+    assert [path.suffix for path in (odd / "forms [2]").iterdir()] == [".txt"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such a name")
+def test_a_folder_whose_name_is_no_utf_8_is_told_in_a_line(done, tmp_path) -> None:
+    import shutil
+
+    odd = tmp_path / "a\udcff"
+    shutil.copytree(done, odd)
+    for command in (("query", odd, "select 1"), ("show", odd), ("replay", odd, "--id", 0)):
+        refused(atoll(*command), "expected a run's log of Parquet files")
+
+
+def test_a_log_s_other_files_are_left_alone_and_a_broken_one_is_told(done, tmp_path) -> None:
+    import shutil
+
+    copy = tmp_path / "copy"
+    shutil.copytree(done, copy)
+    (copy / "log" / "events" / "notes.txt").write_text("mine", encoding="utf-8")
+    (copy / "log" / "events" / "folder.parquet").mkdir()
+    assert atoll("query", copy, "select count(*) from events").exit_code == 0
+    (copy / "log" / "events" / "e9.parquet").write_bytes(b"no parquet")
+    for command in (("query", copy, "select * from events"), ("show", copy), ("replay", copy, "--id", 0)):
+        result = atoll(*command)
+        assert "Traceback" not in result.output
+        assert result.exit_code in (0, 2)
+    refused(atoll("query", copy, "select * from events"), "e9.parquet")
+
+
+@pytest.mark.parametrize(
+    ("sql", "said"),
+    [
+        ("", "one query, got none"),
+        (" ; -- nothing", "one query, got none"),
+        ("select 1; select 2", "one query, got 2 statements"),
+        ("copy (select 1) to '{}/out.csv'", "only reads"),
+        ("copy (select 1) to '{}/log/events/out.csv'", "only reads"),
+        ("explain analyze copy (select 1) to '{}/log/events/out.csv'", "only reads"),
+        ("attach '{}/new.db'", "only reads"),
+        ("create table t as select 1", "only reads"),
+        ("drop view events", "only reads"),
+        ("insert into events select * from events", "only reads"),
+        ("set threads = 1", "only reads"),
+        ("install httpfs", "only reads"),
+        ("export database '{}/db'", "only reads"),
+        ("select * from read_text('{}/manifest.json')", "disabled by configuration"),
+        ("select * from '{}/experiment.yaml'", "SQL"),
+        ("select '\udcff'", "SQL"),
+        ("select ?", "SQL"),
+    ],
+)
+@pytest.mark.parametrize("form", ["table", "parquet"])
+def test_only_one_query_that_only_reads_the_log_is_let_in(done, sql, said, form) -> None:
+    def files() -> list[Path]:
+        return sorted(path for path in done.parent.rglob("*"))
+
+    before = files()
+    refused(atoll("query", done, sql.replace("{}", str(done)), "--format", form), said)
+    assert files() == before
+
+
+@pytest.mark.parametrize(
+    "sql",
+    [
+        "from events", "with a as (from events) select * from a", "describe events", "summarize generations",
+        "show tables", "values (1)", "pivot individuals on island using count(*)", "table events;",
+        "select detail from events -- a remark",
+    ],
+)  # fmt: skip
+def test_all_that_reads_is_let_in(done, tmp_path, sql) -> None:
+    assert last_json(atoll("query", done, sql, "--json"))["rows"]
+    assert atoll("query", done, sql, "--format", "parquet", "-o", tmp_path / "x.parquet").exit_code == 0
+
+
+def test_columns_of_one_name_are_all_told(done, tmp_path) -> None:
+    import pyarrow.parquet as pq
+
+    sql = "select 1 as a, 2 as a, 3 as a_1, 4 as a"
+    expected = {"a": 1, "a_2": 2, "a_1": 3, "a_3": 4}
+    assert last_json(atoll("query", done, sql, "--json")) == {"rows": [expected]}
+    assert atoll("query", done, sql, "--format", "csv").stdout == "a,a_2,a_1,a_3\n1,2,3,4\n"
+    assert atoll("query", done, sql, "--format", "parquet", "-o", tmp_path / "x").exit_code == 0
+    assert pq.read_table(tmp_path / "x").to_pylist() == [expected]
+
+
+def test_show_tells_nothing_stale_of_a_deme_that_is_all_invalid_now(tmp_path) -> None:
+    from datetime import UTC, datetime
+
+    from archipelagos import spec
+
+    from islands.log import LogWriter
+    from islands.records import Generation, Records
+
+    folder = tmp_path / "run"
+    folder.mkdir()
+    (folder / "manifest.json").write_text('{"status": "finished"}', encoding="utf-8")
+    good = Generation(0, 0, 12, 3.0, 2.0, 0.5, 1.0, 0.5, 2, 1.0)
+    bad = Generation(1, 1, 12, None, None, None, None, 0.5, 12, 1.0)
+    log = LogWriter(folder / "log", "run", [spec(0)], lambda: datetime.now(UTC))
+    log.add(0, 0, Records(generations=(good, bad)))
+    log.flush()
+    (island,) = last_json(atoll("show", folder, "--json"))["islands"]
+    assert (island["generation"], island["best"], island["mean"], island["invalid"]) == (1, None, None, 12)
+
+
+def test_an_export_that_fails_leaves_no_folder_and_one_that_cannot_be_written_is_bad_input(done, tmp_path) -> None:
+    refused(atoll("export", done, "--format", "xyz", "-o", tmp_path / "a" / "b"), "--format")
+    refused(atoll("export", done, "--id", 10**15, "-o", tmp_path / "a"), "--id")
+    assert not list(tmp_path.iterdir())
+    (tmp_path / "kept").mkdir()
+    refused(atoll("export", done, "--format", "xyz", "-o", tmp_path / "kept"), "--format")
+    assert (tmp_path / "kept").is_dir()
+    (tmp_path / "afile").write_text("", encoding="utf-8")
+    refused(atoll("export", done, "--format", "txt", "-o", tmp_path / "afile" / "x"), "-o: expected a folder")
+    refused(atoll("query", done, "select 1", "-o", tmp_path / "afile" / "x"), "-o: expected a file")
+    if Path("/proc/self").exists():
+        refused(atoll("export", done, "--format", "txt", "-o", "/proc/x"), "-o: expected a folder")
+        refused(atoll("export", done, "--format", "txt", "-o", "/proc"), "-o: expected a folder")
+        refused(atoll("query", done, "select 1", "-o", "/proc/x"), "-o: expected a file")
+
+
+def test_an_individual_whose_evaluation_raised_replays_as_such(tmp_path) -> None:
+    data = bits(epochs=0)
+    data["islands"]["south"]["growth"] = {"raise_ending": "1"}
+    folder = run(tmp_path, data).folder
+    rows = last_json(atoll("query", folder, "select id from individuals where error like 'exception:%'", "--json"))
+    told = last_json(atoll("replay", folder, "--id", rows["rows"][0]["id"], "--json"))
+    assert told["same"] is True
+    assert told["error"].startswith("exception: ZeroDivisionError: ")

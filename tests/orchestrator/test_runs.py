@@ -19,7 +19,7 @@ from orchestrator.digest import digest
 from orchestrator.folder import open_run
 from orchestrator.loading import load_experiment
 from orchestrator.query import ask
-from orchestrator.regrow import Nursery, by_id, same
+from orchestrator.regrow import Nursery, best, by_id, same
 from orchestrator.run import make_backend, run_experiment
 from orchestrator.standing import standing
 
@@ -325,3 +325,24 @@ def test_inputs_are_kept_with_the_run(tmp_path) -> None:
         assert same(logged, nursery.score(logged))
     assert {path.suffix for path in (outcome.folder / "forms").iterdir()} <= {".glb", ".hemls"}
     write(tmp_path, data)
+
+
+def test_forms_of_an_island_are_different_ones(tmp_path) -> None:
+    """A converged deme holds one form many times: as many genotypes, or one."""
+    data = bits(epochs=12, forms={"best": 6}, channels=[])
+    folder = run(tmp_path, data).folder
+    for island in ("north-0", "north-1", "north-2", "south"):
+        words = [path.read_text() for path in sorted((folder / "forms").glob(f"{island}-best*.txt"))]
+        assert words
+        assert len({(word.count("1"), word.count("01")) for word in words}) == len(words)
+
+
+def test_the_best_of_a_run_are_of_different_scores_and_as_many_as_there_are(outcome) -> None:
+    everyone = [row for row in rows(outcome, "individuals") if row["valid"]]
+    first: dict[tuple, dict] = {}
+    for row in sorted(everyone, key=lambda row: (-row["fitness"], row["id"])):
+        first.setdefault(tuple(sorted(dict(row["scores"]).items())), row)
+    expected = [row["id"] for row in first.values()]
+    folder = open_run(str(outcome.folder))
+    for count in (1, 3, len(expected), len(expected) + 5):
+        assert [logged.id for logged in best(folder, count)] == expected[:count]
