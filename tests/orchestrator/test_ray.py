@@ -132,6 +132,8 @@ def test_a_signal_to_the_whole_group_stops_cleanly(tmp_path, clean, number) -> N
     process = start(tmp_path, slow())
     until_settled(tmp_path, process)
     assert strangers_can_reach(process) == []
+    others = psutil.Process(process.pid).children(recursive=True)
+    assert [other for other in others if os.getpgid(other.pid) == process.pid] == []
     os.killpg(process.pid, number)
     told, _ = ended(process, 130)
     assert told["status"] == "stopped"
