@@ -58,6 +58,7 @@ class LogWriter:
         self._calendar = calendar
         self._buffer: list[tuple[int, int, Records]] = []
         self._events: list[Event] = []
+        self._begun = False
 
     def add(self, island: int, epoch: int, records: Records) -> None:
         """Take the records of one island in one epoch."""
@@ -74,7 +75,7 @@ class LogWriter:
     def flush(self) -> list[Path]:
         """Write what is buffered, one file for each table that has rows; give the files.
 
-        Each epoch's records come in one piece; only events may be told of an epoch that is written already, and then
+        The first time each table gets its file, with rows or without, so that a plain glob finds every table. Each epoch's records come in one piece; only events may be told of an epoch that is written already, and then
         they stand in a file of their own.
         """
         if not self._buffer and not self._events:
@@ -87,8 +88,9 @@ class LogWriter:
             span = f"{span}-after"
         tables = {name: self._table(name) for name in TABLES if name != "events"}
         tables["events"] = events_table(self._run, self._events)
-        files = [write(self._folder, name, span, table) for name, table in tables.items() if table.num_rows]
-        self._buffer, self._events = [], []
+        wanted = {name: table for name, table in tables.items() if table.num_rows or not self._begun}
+        files = [write(self._folder, name, span, table) for name, table in wanted.items()]
+        self._buffer, self._events, self._begun = [], [], True
         return files
 
     def _table(self, name: str) -> pa.Table:

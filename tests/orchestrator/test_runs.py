@@ -14,6 +14,7 @@ import pytest
 from experiments import Silent, bits, run, write
 from genome.errors import InputError
 from islands.individual import home_of
+from islands.schemas import columns
 from orchestrator.backends.protocol import RunFailedError
 from orchestrator.digest import digest
 from orchestrator.folder import open_run
@@ -161,6 +162,18 @@ def test_four_readers_give_the_same_totals_with_a_plain_glob(outcome) -> None:
         assert len({count, lazy.height, len(frame), len(whole)}) == 1
         for other in (lazy[value].sum(), frame[value].sum(), whole[value].sum()):
             assert other == pytest.approx(total, rel=1e-12)
+
+
+def test_a_table_that_nothing_came_into_is_there_too(tmp_path) -> None:
+    alike = bits()
+    alike["islands"] = {"one": next(iter(alike["islands"].values()))}
+    alike["channels"] = []
+    log = run(tmp_path, alike).folder / "log"
+    for table in ("evaluations", "migrations"):
+        glob = str(log / table / "*.parquet")
+        assert duckdb.sql(f"select count(*) from '{glob}'").fetchall() == [(0,)]
+        assert pl.read_parquet(glob).height == len(pd.read_parquet(log / table)) == 0
+        assert ds.dataset(log / table).schema.names == list(columns(table))
 
 
 def test_the_same_run_twice_has_the_same_digest_and_another_seed_another(outcome, tmp_path) -> None:
