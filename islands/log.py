@@ -75,8 +75,9 @@ class LogWriter:
     def flush(self) -> list[Path]:
         """Write what is buffered, one file for each table that has rows; give the files.
 
-        The first time each table gets its file, with rows or without, so that a plain glob finds every table. Each epoch's records come in one piece; only events may be told of an epoch that is written already, and then
-        they stand in a file of their own.
+        The first time each table gets its file, with rows or without, so that a plain glob finds every table. Each
+        epoch's records come in one piece; only events may be told of an epoch that is written already, and then they
+        stand in a file of their own.
         """
         if not self._buffer and not self._events:
             return []
