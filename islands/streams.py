@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum, unique
+from typing import Final
 
 import numpy as np
 
@@ -17,6 +18,13 @@ class Purpose(IntEnum):
     EMIGRANTS = 3
     REPLACEMENT = 4
     GROWTH = 5
+    TOPOLOGY = 6
+    ROUTING = 7
+    PARTNERS = 8
+
+
+ARCHIPELAGO: Final = 2**32 - 1
+"""In place of an island's number, for what concerns all of them."""
 
 
 def stream(seed: int, island: int, purpose: Purpose, epoch: int, *extra: int) -> np.random.Generator:

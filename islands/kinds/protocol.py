@@ -11,6 +11,7 @@ import numpy as np
 from genome.settings import Settings
 from growth.protocol import Clock
 from islands.individual import Evaluation
+from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
 G = TypeVar("G")
@@ -101,8 +102,57 @@ class Biology(Protocol[G]):
 
 
 @runtime_checkable
+class Symbiotic(Protocol[G]):
+    """A biology whose individuals are scored together with partners.
+
+    ``evaluate`` scores one alone, as long as no partner has come.
+    """
+
+    def evaluate_with(self, genotype: G, partners: tuple[Migrant, ...]) -> Evaluation:
+        """Score one pairing: a genotype with one partner from each incoming ``partners`` channel, in their order."""
+        ...
+
+
+@runtime_checkable
+class Assembling(Protocol[G]):
+    """A biology whose genotypes are assembled from parts that ``components`` channels bring.
+
+    A genotype carries its parts whole, so that it can be regrown by itself.
+    """
+
+    def supplied(self, parts: tuple[Migrant, ...]) -> Biology[G]:
+        """Give the biology whose ``random``, ``crossover`` and ``mutate`` may use these parts, and only these anew."""
+        ...
+
+    def components(self, genotype: G) -> tuple[int, ...]:
+        """Give the ids of the parts that a genotype is assembled from."""
+        ...
+
+
+@runtime_checkable
+class Situated(Protocol[G]):
+    """A biology whose environment takes in forms that ``surroundings`` channels bring."""
+
+    def surrounded(self, forms: tuple[Migrant, ...]) -> Biology[G]:
+        """Give the biology in the environment that holds these forms; its ``scoring`` tells them apart."""
+        ...
+
+
+@runtime_checkable
+class Offering(Protocol[G]):
+    """A biology that gives something other than its genotypes' encoding to some channels, such as a form."""
+
+    def offer(self, genotype: G, kind: ChannelKind) -> str:
+        """Give what travels on channels of this kind: text that a kind which takes it can read."""
+        ...
+
+
+@runtime_checkable
 class Kind(Protocol):
     """An island kind: the models of its settings, and the maker of its biology.
+
+    A kind may have three attributes more, which say what channels of other kinds than ``migrants`` may join it (see
+    :mod:`islands.kinds.trade`): ``gives`` and ``takes``, from a channel's kind to names of what travels, and ``needs``.
 
     Attributes
     ----------

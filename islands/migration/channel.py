@@ -1,13 +1,67 @@
-"""Channels, their edges, and what travels on them."""
+"""Channels, their edges, and what travels on them.
+
+One mechanism carries all four kinds: at an epoch's end each edge sends one packet, empty if need be, and the target
+takes it in before the next epoch's first selection. What a packet holds and what the target does with it depend on the
+channel's kind:
+
+- ``migrants``: individuals join the target's deme;
+- ``partners``: representatives, which the target's members are scored together with;
+- ``components``: finished parts, which the target's genotypes are assembled from;
+- ``surroundings``: forms, which become part of the target's environment.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from islands.individual import Scores
 
 ChannelKind = Literal["migrants", "partners", "components", "surroundings"]
+Chooser = Literal["best", "tournament", "random", "roulette", "diverse"]
+Replacer = Literal["worst", "random", "oldest", "similar", "tournament"]
+PairingScheme = Literal["best", "random", "several", "archive"]
+PairingScore = Literal["mean", "best", "worst"]
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """A condition on a source's deme, besides the interval; exactly one is set.
+
+    Attributes
+    ----------
+    stagnation
+        It sends once its best has not improved for at least so many generations.
+    diversity
+        It sends while its diversity is under this bound.
+    """
+
+    stagnation: int | None = None
+    diversity: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Pairing:
+    """How the target of a ``partners`` channel pairs its members with those shown to it.
+
+    Attributes
+    ----------
+    scheme
+        ``best``: with the best shown. ``several``: with the ``count`` best shown. ``random``: with ``count`` of those
+        shown, drawn for each member. ``archive``: with the best shown and ``count`` - 1 of the archive, drawn for each
+        epoch.
+    count
+        Pairings of one member.
+    score
+        What a member's pairings make together: their ``mean``, the ``best``, or the ``worst`` of them.
+    archive
+        How many past representatives are kept: the best one shown in each epoch; the oldest go first.
+    """
+
+    scheme: PairingScheme = "best"
+    count: int = 1
+    score: PairingScore = "mean"
+    archive: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,23 +71,33 @@ class Channel:
     Attributes
     ----------
     number
-        Place in the experiment's list of channels, from 0: the order in which packets join.
+        Place in the experiment's list of channels, from 0: the order in which packets are taken in.
     name
         As the log names it.
     kind
         What it carries.
     every
-        Migrants travel at the end of each epoch that this divides; epoch 0 sends none.
-    count
-        How many travel on an edge at a time.
+        It carries at the end of each epoch that this divides; migrants do not travel at the end of epoch 0.
+    count, rate
+        How many travel on an edge at a time: a number, or with ``rate`` a share of the source's deme.
     select
-        Which members emigrate: ``best``, ``random``, ``tournament``.
+        Which members emigrate.
     tournament
-        Entrants of a tournament, where ``select`` holds them.
+        Entrants of a tournament, where ``select`` or ``replace`` holds them.
     replace
-        Whose place an immigrant takes: ``worst``, ``random``.
+        Whose place an immigrant takes.
     accept
         ``always``, or ``better``: only if it is better than the member whose place it would take.
+    move
+        Emigrants leave their deme instead of sending a copy.
+    routing
+        ``broadcast``: each edge carries. ``point``: one edge of each source and epoch, drawn at random, carries.
+    trigger
+        A condition on the source's deme.
+    pairing
+        Of ``partners`` alone.
+    keep
+        Of ``components`` alone: how many parts of each source a target keeps, the newest first.
     """
 
     number: int
@@ -41,50 +105,69 @@ class Channel:
     kind: ChannelKind = "migrants"
     every: int = 1
     count: int = 1
-    select: str = "best"
+    rate: float | None = None
+    select: Chooser = "best"
     tournament: int = 2
-    replace: str = "worst"
-    accept: str = "always"
+    replace: Replacer = "worst"
+    accept: Literal["always", "better"] = "always"
+    move: bool = False
+    routing: Literal["broadcast", "point"] = "broadcast"
+    trigger: Trigger | None = None
+    pairing: Pairing | None = None
+    keep: int = 1
 
     def carries(self, epoch: int) -> bool:
-        """Tell whether migrants travel at the end of this epoch."""
-        return epoch > 0 and epoch % self.every == 0
+        """Tell whether it carries at the end of this epoch, its trigger aside."""
+        return epoch % self.every == 0 and (epoch > 0 or self.kind != "migrants")
+
+    def size(self, population: int) -> int:
+        """Give how many travel on an edge from a deme of so many members: at least one."""
+        return self.count if self.rate is None else max(1, round(self.rate * population))
 
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """One directed connection of a channel, from the island ``source`` to the island ``target`` (numbers, names)."""
+    """One directed connection of a channel, from the island ``source`` to the island ``target`` (numbers, names).
+
+    Attributes
+    ----------
+    weight
+        The probability that it carries when its channel does.
+    adapter
+        Name or import path of what translates genotypes on the way; empty for none.
+    """
 
     channel: Channel
     source: int
     target: int
     source_name: str
     target_name: str
+    weight: float = 1.0
+    adapter: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Migrant:
+class Migrant(NamedTuple):
     """An individual on its way: values only, so that no deme ever shares an object with another.
 
     Attributes
     ----------
     id
-        Stays the same in the deme that it joins.
-    genotype
-        Its language-neutral encoding.
+        Stays the same wherever it goes.
+    text
+        What travels: the language-neutral encoding of its genotype, or on a channel of another kind than ``migrants``
+        what its kind offers there.
     fitness, scores, error
         As at its source.
     """
 
     id: int
-    genotype: str
+    text: str
     fitness: float | None
     scores: Scores
     error: str
 
 
-@dataclass(frozen=True, slots=True)
-class Packet:
+class Packet(NamedTuple):
     """What one edge delivers at the end of one epoch; it may be empty.
 
     Attributes
