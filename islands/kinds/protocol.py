@@ -15,6 +15,7 @@ from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
 G = TypeVar("G")
+G_contra = TypeVar("G_contra", contravariant=True)
 
 Facts = Mapping[str, str | float | bool]
 
@@ -102,13 +103,13 @@ class Biology(Protocol[G]):
 
 
 @runtime_checkable
-class Symbiotic(Protocol[G]):
+class Symbiotic(Protocol[G_contra]):
     """A biology whose individuals are scored together with partners.
 
     ``evaluate`` scores one alone, as long as no partner has come.
     """
 
-    def evaluate_with(self, genotype: G, partners: tuple[Migrant, ...]) -> Evaluation:
+    def evaluate_with(self, genotype: G_contra, partners: tuple[Migrant, ...]) -> Evaluation:
         """Score one pairing: a genotype with one partner from each incoming ``partners`` channel, in their order."""
         ...
 
@@ -139,10 +140,10 @@ class Situated(Protocol[G]):
 
 
 @runtime_checkable
-class Offering(Protocol[G]):
+class Offering(Protocol[G_contra]):
     """A biology that gives something other than its genotypes' encoding to some channels, such as a form."""
 
-    def offer(self, genotype: G, kind: ChannelKind) -> str:
+    def offer(self, genotype: G_contra, kind: ChannelKind) -> str:
         """Give what travels on channels of this kind: text that a kind which takes it can read."""
         ...
 

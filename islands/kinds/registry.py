@@ -9,6 +9,7 @@ from genome.errors import InputError
 from islands.kinds.protocol import Kind
 
 KINDS: Final = {
+    "bits": "islands.kinds.bits:BitsKind",
     "surface": "islands.kinds.surface:SurfaceKind",
 }
 """Built kinds and where they stand; imported when first used."""
