@@ -25,6 +25,7 @@ from islands.island import Advance, Island, State
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
 from islands.migration.channel import Edge, Packet
+from islands.migration.routes import Routes
 from islands.selection import ranked
 from islands.spec import IslandSpec
 
@@ -149,10 +150,7 @@ class Host:
             When an island's settings do not hold together here: a file or plug-in that this machine lacks.
         """
         pin_threads()
-        edges: dict[int, list[Edge]] = defaultdict(list)
-        for edge in self._plan.edges:
-            for end in dict.fromkeys((edge.source, edge.target)):
-                edges[end].append(edge)
+        routes = Routes(self._plan.edges, (), self._plan.seed)
         # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
         # need no ten thousand environments.
         groups = {spec.group: spec for spec in self._plan.islands}
@@ -160,7 +158,7 @@ class Host:
             name: resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock) for name, spec in groups.items()
         }
         self._islands = tuple(
-            Island(spec, biology[spec.group], self._plan.seed, edges[spec.number], self._clock, self._pulse)
+            Island(spec, biology[spec.group], self._plan.seed, routes, self._clock, self._pulse)
             for spec in self._plan.islands
         )
         return self._plan.host

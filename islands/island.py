@@ -8,7 +8,7 @@ Only the clock's columns differ from run to run.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final, Generic, TypeVar, final
 
@@ -17,9 +17,10 @@ import numpy as np
 from growth.protocol import Clock
 from islands.individual import Evaluation, Individual, Origin, make_id
 from islands.kinds.protocol import Biology
-from islands.migration.channel import Channel, Edge, Migrant, Packet
+from islands.migration.channel import Channel, Migrant, Packet
 from islands.migration.emigrants import emigrants
 from islands.migration.replacement import REPLACERS, beats
+from islands.migration.routes import Routes
 from islands.records import Born, Crossing, Generation, Note, Records, Rescored
 from islands.scoring import scored
 from islands.selection import ranked, tournaments
@@ -99,8 +100,8 @@ class Island(Generic[G]):
         How it breeds and scores.
     seed
         The run's seed.
-    edges
-        All edges that begin or end here, in the order of their channels.
+    routes
+        The edges of the run, those that begin or end here at least.
     clock
         For the ``*_ms`` columns alone.
     pulse
@@ -108,14 +109,12 @@ class Island(Generic[G]):
     """
 
     def __init__(
-        self, spec: IslandSpec, biology: Biology[G], seed: int, edges: Iterable[Edge], clock: Clock, pulse: Pulse
+        self, spec: IslandSpec, biology: Biology[G], seed: int, routes: Routes, clock: Clock, pulse: Pulse
     ) -> None:
         self.spec: Final = spec
         self.biology: Final = biology
         self._seed: Final = seed
-        edges = tuple(edges)
-        self.outgoing: Final = tuple(edge for edge in edges if edge.source == spec.number)
-        self.incoming: Final = {(e.channel.number, e.source): e for e in edges if e.target == spec.number}
+        self._routes: Final = routes
         self._clock: Final = clock
         self._pulse: Final = pulse
 
@@ -225,9 +224,10 @@ class Island(Generic[G]):
     # -- migration -----------------------------------------------------------------------------------------------
 
     def _departures(self, state: State[G]) -> tuple[Packet, ...]:
-        order = ranked(state.deme) if any(edge.channel.carries(state.epoch) for edge in self.outgoing) else []
+        outgoing = self._routes.outgoing(self.spec.number, state.epoch)
+        order = ranked(state.deme) if any(edge.channel.carries(state.epoch) for edge in outgoing) else []
         packets = []
-        for edge in self.outgoing:
+        for edge in outgoing:
             migrants: tuple[Migrant, ...] = ()
             if edge.channel.carries(state.epoch):
                 extra = (edge.channel.number, edge.target)
@@ -247,7 +247,8 @@ class Island(Generic[G]):
         rescored_before = len(scribe.rescored)
         streams: dict[int, np.random.Generator] = {}
         for packet in sorted(arrivals, key=lambda packet: (packet.channel, packet.source)):
-            edge = self.incoming[packet.channel, packet.source]
+            incoming = self._routes.incoming(self.spec.number, packet.epoch)
+            edge = next(e for e in incoming if (e.channel.number, e.source) == (packet.channel, packet.source))
             number = edge.channel.number
             if number not in streams:
                 streams[number] = stream(self._seed, self.spec.number, Purpose.REPLACEMENT, state.epoch, number)
@@ -286,7 +287,7 @@ class Island(Generic[G]):
 
     def _welcome(self, migrant: Migrant, packet: Packet, state: State[G], scribe: _Scribe) -> Individual[G]:
         """Make a member of the migrant, scored again where this island scores otherwise than its source."""
-        genotype = self.biology.decode(migrant.genotype)
+        genotype = self.biology.decode(migrant.text)
         if packet.scoring == self.biology.scoring:
             return Individual(migrant.id, genotype, migrant.fitness, migrant.scores, migrant.error)
         found = self._score(genotype, migrant.id, state.epoch, scribe)

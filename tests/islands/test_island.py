@@ -12,6 +12,7 @@ from archipelagos import LENGTH, island, ring, spec
 
 from islands.individual import COUNTER_BITS, Individual, home_of, make_id
 from islands.migration.channel import Channel, Migrant, Packet
+from islands.migration.routes import Routes
 from islands.selection import ranked
 from islands.settings import Algorithm
 
@@ -211,7 +212,7 @@ def test_a_pulse_that_raises_abandons_the_epoch() -> None:
     def stop() -> None:
         raise InterruptedError
 
-    isle = Island(spec(), BitsKind().build(spec(), lambda: 0.0), 5, (), lambda: 0.0, stop)
+    isle = Island(spec(), BitsKind().build(spec(), lambda: 0.0), 5, Routes(()), lambda: 0.0, stop)
     with pytest.raises(InterruptedError):
         isle.begin()
 

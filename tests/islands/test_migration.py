@@ -38,7 +38,7 @@ def test_the_best_leave_at_an_epoch_s_end_as_copies(isle) -> None:
     (sent,) = step.departures
     best = ranked(step.state.deme)[:2]
     assert [one.id for one in sent.migrants] == [member.id for member in best]
-    assert [json.loads(one.genotype) for one in sent.migrants] == [list(member.genotype) for member in best]
+    assert [json.loads(one.text) for one in sent.migrants] == [list(member.genotype) for member in best]
     assert (sent.epoch, sent.source, sent.target) == (1, 1, 2)
 
 

@@ -10,6 +10,7 @@ from bits import BitsKind
 
 from islands.island import Island
 from islands.migration.channel import Channel, Edge
+from islands.migration.routes import Routes
 from islands.settings import Algorithm
 from islands.spec import IslandSpec
 
@@ -43,7 +44,7 @@ def island(number: int = 0, edges: tuple[Edge, ...] = (), seed: int = 5, **chang
     ticks = ticking()
     made = spec(number, **changes)
     biology = BitsKind().build(made, lambda: next(ticks))
-    return Island(made, biology, seed, edges, lambda: next(ticks), lambda: None)
+    return Island(made, biology, seed, Routes(edges, (), seed), lambda: next(ticks), lambda: None)
 
 
 def ring(count: int, channel: Channel) -> tuple[Edge, ...]:
