@@ -1,51 +1,145 @@
-"""The topologies by name."""
+"""The topologies by name. A new one is one file here and one line of ``TOPOLOGIES``."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Final, cast
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from operator import index
+from pathlib import Path
+from typing import Any, Final, cast
 
 from evaluators.plugins import find_function
 from genome.errors import InputError
+from genome.mishaps import told
+from genome.settings import Settings, describe, validated
+from islands.kinds.protocol import Keep
+from orchestrator.topology.protocol import FromFile, Ground, Link, Parameters, Topology, located
 
-Topology = Callable[[int], list[tuple[int, int]]]
+TOPOLOGIES: Final = {
+    "unconnected": "orchestrator.topology.unconnected:unconnected",
+    "ring": "orchestrator.topology.ring:ring",
+    "bidirectional_ring": "orchestrator.topology.bidirectional_ring:bidirectional_ring",
+    "line": "orchestrator.topology.line:line",
+    "star": "orchestrator.topology.star:star",
+    "wheel": "orchestrator.topology.wheel:wheel",
+    "torus": "orchestrator.topology.torus:Torus",
+    "grid": "orchestrator.topology.grid:Grid",
+    "hypercube": "orchestrator.topology.hypercube:hypercube",
+    "complete": "orchestrator.topology.complete:complete",
+    "tree": "orchestrator.topology.tree:Tree",
+    "barabasi_albert": "orchestrator.topology.barabasi_albert:BarabasiAlbert",
+    "watts_strogatz": "orchestrator.topology.watts_strogatz:WattsStrogatz",
+    "erdos_renyi": "orchestrator.topology.erdos_renyi:ErdosRenyi",
+    "random": "orchestrator.topology.random:Random",
+    "edges": "orchestrator.topology.edges:Edges",
+    "graph": "orchestrator.topology.graph:Graph",
+}
+"""Built topologies and where they stand; imported when first used."""
 
-TOPOLOGIES: Final = {"ring": "orchestrator.topology.ring:ring"}
-"""Built topologies and where they stand."""
-
-LATER: Final = (
-    "unconnected",
-    "bidirectional_ring",
-    "line",
-    "star",
-    "wheel",
-    "torus",
-    "grid",
-    "hypercube",
-    "complete",
-    "tree",
-    "barabasi_albert",
-    "watts_strogatz",
-    "erdos_renyi",
-    "random",
-    "edges",
-)
-"""Topologies that the experiment format knows and that are not built yet."""
+OPEN: Final = ("edges", "graph", "barabasi_albert", "watts_strogatz", "erdos_renyi")
+"""Built topologies that may leave an island without an incoming edge, as a plug-in may."""
 
 GROUP: Final = "atoll.topologies"
 
 
-def edges_of(name: str, count: int, where: str) -> list[tuple[int, int]]:
-    """Give the edges of a topology by name, import path or entry point.
+Simple = Callable[[int], Any]
+"""A topology without parameters, or with those that it has been given."""
+
+
+def resolve_topology(name: str, where: str) -> Callable[..., Any]:
+    """Give the topology of this name, import path or entry point: a settings model, or a function.
 
     Raises
     ------
     InputError
-        When there is no such topology, or a plug-in's gives edges that cannot be.
+        When there is none, or what is there cannot be called.
     """
-    topology = cast("Topology", find_function(name, where, "topology", TOPOLOGIES, GROUP, LATER))
-    edges = sorted({(int(source), int(target)) for source, target in topology(count)})
-    for source, target in edges:
-        if source == target or not (0 <= source < count and 0 <= target < count):
-            raise InputError(where, f"edges between two of {count} islands", f"'{name}' with {source} -> {target}")
-    return edges
+    return find_function(name, where, "topology", TOPOLOGIES, GROUP)
+
+
+def with_parameters(name: str, parameters: Parameters, where: str) -> Settings | Simple:
+    """Give a topology with its parameters: a settings model of them, or a function of the number of islands.
+
+    Raises
+    ------
+    InputError
+        When there is no such topology, or it has no such parameters.
+    """
+    found = resolve_topology(name, where)
+    if isinstance(found, type) and issubclass(found, Settings):
+        source, separator, key = where.rpartition(": ")
+        return validated(found, parameters, source if separator else where, tuple(key.split(".")) if separator else ())
+    try:
+        inspect.signature(found).bind(2, **parameters)
+    except TypeError as error:
+        raise InputError(where, f"parameters that '{name}' takes", str(error)) from None
+    except ValueError:  # a function of C without a signature
+        pass
+    simple: Simple = partial(found, **parameters)
+    return simple
+
+
+def links_of(name: str, parameters: Parameters, ground: Ground, where: str) -> list[Link]:
+    """Give the edges of a topology, ascending.
+
+    Parameters
+    ----------
+    name
+        By which the experiment calls it.
+    parameters
+        As the experiment has them.
+    ground
+        The islands.
+    where
+        The place in the experiment, for messages.
+
+    Raises
+    ------
+    InputError
+        When there is no such topology, it does not fit the islands, or a plug-in's gives edges that cannot be.
+    """
+    topology: object = with_parameters(name, parameters, where)
+    lay = topology.links if isinstance(topology, Topology) else partial(_simply, cast("Simple", topology))
+    try:
+        return sorted(lay(ground)) if name in TOPOLOGIES else _checked(name, lay(ground), ground, where)
+    except InputError as error:
+        raise error if error.where.startswith(where) else located(error, where) from None
+    except Exception as error:  # a plug-in may raise anything
+        got = f"'{name}', which raised {told(error)}"
+        raise InputError(where, f"a topology of {ground.count} islands", got) from error
+
+
+def edges_of(name: str, count: int, where: str, **parameters: Any) -> list[tuple[int, int]]:  # noqa: ANN401
+    """Give the edges of a topology among so many islands that are known by their places alone; see ``links_of``."""
+    ground = Ground(tuple(str(place) for place in range(count)))
+    return [(link.source, link.target) for link in links_of(name, parameters, ground, where)]
+
+
+def kept(name: str, parameters: Parameters, base: Path, keep: Keep, where: str) -> Mapping[str, object]:
+    """Keep with the run the file that a topology reads; give its parameters with the copy's name."""
+    topology: object = with_parameters(name, parameters, where)
+    return topology.kept(base, keep) if isinstance(topology, FromFile) else parameters
+
+
+def _simply(topology: Simple, ground: Ground) -> list[Link]:
+    return [Link(*edge) for edge in topology(ground.count)]
+
+
+def _checked(name: str, given: Sequence[Link], ground: Ground, where: str) -> list[Link]:
+    """Check what a plug-in gives: pairs of places, with a weight as a third if need be; each once."""
+    links: dict[tuple[int, int], Link] = {}
+    for edge in given:
+        try:
+            source, target, weight = index(edge.source), index(edge.target), edge.weight
+            link = Link(source, target, weight if weight is None else float(weight))
+        except (TypeError, ValueError):
+            got = f"'{name}' with {describe(tuple(edge))}"
+            raise InputError(where, "edges: two places, and a weight if need be", got) from None
+        inside = 0 <= source < ground.count and 0 <= target < ground.count
+        if source == target or not inside or not 0 <= (1.0 if link.weight is None else link.weight) <= 1:
+            got = f"'{name}' with {source} -> {target}"
+            got += "" if link.weight is None else f" of weight {link.weight}"
+            raise InputError(where, f"edges between two of {ground.count} islands", got)
+        links.setdefault((source, target), link)
+    return [links[ends] for ends in sorted(links)]

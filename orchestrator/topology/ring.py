@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from orchestrator.topology.protocol import Pairs
 
-def ring(count: int) -> list[tuple[int, int]]:
+
+def ring(count: int) -> Pairs:
     """Give the edges of a ring; none for a single island.
 
     Parameters
