@@ -10,9 +10,8 @@ from evaluators.fitness import Goal
 from genome.errors import InputError
 from genome.settings import Settings, describe
 from islands.settings import Algorithm
+from orchestrator.channels import ChannelSettings, Count, Name
 
-Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$", max_length=100)]
-Count = Annotated[int, Field(ge=1, le=1_000_000)]
 Seconds = Annotated[float, Field(gt=0, le=1e7)]
 
 
@@ -40,43 +39,6 @@ class IslandDefaults(Settings):
     growth: dict[str, Any] | None = None
     fitness: dict[str, Goal] | None = None
     algorithm: Algorithm | None = None
-
-
-class ChannelSettings(Settings):
-    """A channel: a topology ``among`` islands, or one edge ``from`` an island ``to`` another."""
-
-    kind: Literal["migrants", "partners", "components", "surroundings"] = "migrants"
-    name: Name | None = None
-    topology: str | None = None
-    among: str | list[str] | None = None
-    source: str | None = Field(default=None, alias="from")
-    target: str | None = Field(default=None, alias="to")
-    every: Count = 1
-    count: Count = 1
-    select: Literal["best", "random", "tournament"] = "best"
-    tournament: Count = 2
-    replace: Literal["worst", "random"] = "worst"
-    accept: Literal["always", "better"] = "always"
-
-    @field_validator("among", mode="before")
-    @classmethod
-    def _names(cls, value: object) -> object:
-        names = value if isinstance(value, list) else [value]
-        if value is not None and not all(isinstance(name, str) for name in names):
-            raise InputError("", "an island's name or a list of names", describe(value))
-        return value
-
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
-        point = self.source is not None or self.target is not None
-        if point and (self.source is None or self.target is None):
-            missing = "from" if self.source is None else "to"
-            raise InputError("", "both 'from' and 'to'", f"no '{missing}'", "add it")
-        if point and (self.topology is not None or self.among is not None):
-            raise InputError("", "'from' and 'to', or 'topology' and 'among'", "both", "remove one of them")
-        if not point and self.topology is None:
-            raise InputError("", "'topology' and 'among', or 'from' and 'to'", "neither", "add topology: ring")
-        return self
 
 
 class LogSettings(Settings):

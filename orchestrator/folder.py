@@ -21,10 +21,13 @@ from genome.errors import InputError
 from genome.files import write_whole
 from genome.settings import near
 from genome.yaml import parse_yaml
+from islands.kinds.protocol import Keep
 from islands.kinds.registry import resolve_kind
 from islands.schemas import VERSION
+from orchestrator.channels import ChannelSettings
 from orchestrator.loading import Loaded
 from orchestrator.plan import make_plan
+from orchestrator.topology.registry import kept
 
 MANIFEST: Final = "manifest.json"
 EXPERIMENT: Final = "experiment.yaml"
@@ -208,8 +211,20 @@ def _with_files_kept(loaded: Loaded, draft: Path) -> dict[str, Any]:
         genome, growth = kind.keep_files(spec, keep)
         changes = {"genome": dict(genome), "growth": dict(growth)}
         islands[spec.group] = islands[spec.group].model_copy(update=changes)
-    experiment = loaded.experiment.model_copy(update={"islands": islands})
+    channels = [
+        _with_graph_kept(channel, loaded.base, keep, f"{loaded.source}: channels.{number}.topology")
+        for number, channel in enumerate(loaded.experiment.channels)
+    ]
+    experiment = loaded.experiment.model_copy(update={"islands": islands, "channels": channels})
     return replace(loaded, experiment=experiment).data()
+
+
+def _with_graph_kept(channel: ChannelSettings, base: Path, keep: Keep, where: str) -> ChannelSettings:
+    """Keep the file that a channel's topology reads."""
+    if not channel.parameters:
+        return channel
+    parameters = kept(channel.topology_name, channel.parameters, base, keep, where)
+    return channel.model_copy(update={"topology": {"name": channel.topology_name, **parameters}})
 
 
 def _as_yaml(data: Mapping[str, Any]) -> str:

@@ -12,10 +12,12 @@ from typing import Any
 
 from genome.errors import InputError
 from genome.settings import Path as KeyPath
-from genome.settings import describe, near, validated
+from genome.settings import describe, validated
 from genome.yaml import load_yaml
 from islands.kinds.registry import resolve_kind
+from orchestrator.channels import completed
 from orchestrator.experiment import Experiment, IslandDefaults, IslandSettings
+from orchestrator.members import lonely
 from orchestrator.overrides import apply_overrides, parse_override
 
 LineOf = Callable[[KeyPath], int | None]
@@ -77,8 +79,10 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
     try:
         changed = apply_overrides(data, overrides)
         changed.setdefault("name", re.sub(r"[^A-Za-z0-9_-]+", "-", path.name.split(".")[0]).strip("-_") or "run")
-        notes = ("checkpoint: accepted, but this version writes no checkpoints yet",) if "checkpoint" in changed else ()
-        return Loaded(_resolved(changed, source), source, path.resolve().parent, notes, locate)
+        notes = ["checkpoint: accepted, but this version writes no checkpoints yet"] if "checkpoint" in changed else []
+        experiment = _resolved(changed, source)
+        notes.extend(lonely(experiment, source))
+        return Loaded(experiment, source, path.resolve().parent, tuple(notes), locate)
     except InputError as error:
         raise locate(error) from None
 
@@ -108,7 +112,12 @@ def _resolved(data: dict[str, Any], source: str) -> Experiment:
     experiment = validated(Experiment, data, source)
     _refuse_unbuilt(experiment, source)
     islands = {name: _with_kind(name, island, source) for name, island in experiment.islands.items()}
-    changes = {"islands": islands, "epochs": experiment.length, "generations": None, "defaults": None}
+    channels = [
+        completed(channel, f"{source}: channels.{number}", experiment.epoch)
+        for number, channel in enumerate(experiment.channels)
+    ]
+    changes = {"islands": islands, "channels": channels, "epochs": experiment.length}
+    changes |= {"generations": None, "defaults": None}
     return experiment.model_copy(update=changes)
 
 
@@ -127,10 +136,6 @@ def _refuse_unbuilt(experiment: Experiment, source: str) -> None:
     if experiment.schedule != "barrier":
         got = f"'{experiment.schedule}', which comes with a later version"
         raise InputError(f"{source}: schedule", "'barrier'", got, "set schedule: barrier")
-    for place, channel in enumerate(experiment.channels):
-        if channel.kind != "migrants":
-            got = f"'{channel.kind}', which comes with a later version"
-            raise InputError(f"{source}: channels.{place}.kind", "'migrants'", got, "set kind: migrants")
 
 
 def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings:
@@ -146,9 +151,3 @@ def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings
         meaning = json.dumps(genome, sort_keys=True, allow_nan=False)
         species = f"{kind.name}-{hashlib.sha256(meaning.encode()).hexdigest()[:8]}"
     return island.model_copy(update={"genome": genome, "growth": growth, "species": species})
-
-
-def check_name(name: str, known: Sequence[str], where: str, what: str) -> None:
-    """Refuse a name that is not among those known, and suggest the near one."""
-    if name not in known:
-        raise InputError(where, what, f"'{name}'", near(name, list(known)))

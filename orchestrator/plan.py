@@ -8,19 +8,23 @@ from pathlib import Path
 
 from genome.errors import InputError
 from islands.host import HostPlan
-from islands.migration.channel import Channel, Edge
+from islands.migration.channel import Edge
+from islands.migration.routes import Redrawn
 from islands.spec import IslandSpec
-from orchestrator.experiment import ChannelSettings
-from orchestrator.loading import Loaded, check_name
-from orchestrator.topology.registry import edges_of
+from orchestrator.loading import Loaded
+from orchestrator.wiring import wire
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The islands of a run in the order of their numbers, and its edges in the order of channels, then sources."""
+    """The islands of a run in the order of their numbers, and its edges in the order of channels, then sources.
+
+    ``redrawn`` are the channels whose edges are drawn anew for each epoch.
+    """
 
     islands: tuple[IslandSpec, ...]
     edges: tuple[Edge, ...]
+    redrawn: tuple[Redrawn, ...] = ()
 
 
 def make_plan(loaded: Loaded) -> Plan:
@@ -29,20 +33,12 @@ def make_plan(loaded: Loaded) -> Plan:
     Raises
     ------
     InputError
-        For islands of one name, a channel to an island that is not there, islands of different species on a channel,
-        or a migration larger than a deme.
+        For islands of one name, and for all that :func:`~orchestrator.wiring.wire` refuses.
     """
     islands = _islands(loaded)
-    edges: list[Edge] = []
-    names: dict[str, int] = {}
-    for number, settings in enumerate(loaded.experiment.channels):
-        where = f"{loaded.source}: channels.{number}"
-        name = settings.name or f"{settings.kind}-{number}"
-        if name in names:
-            raise InputError(f"{where}.name", "a name of its own", f"'{name}', as channel {names[name]}", "rename it")
-        names[name] = number
-        edges.extend(_edges(settings, number, name, islands, where))
-    return Plan(islands, tuple(edges))
+    wired = wire(loaded.experiment, islands, loaded.source, loaded.base)
+    edges = tuple(edge for one in wired for edge in one.edges)
+    return Plan(islands, edges, tuple(one.redrawn for one in wired if one.redrawn is not None))
 
 
 def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Path) -> tuple[HostPlan, ...]:
@@ -66,9 +62,20 @@ def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Path) -
                 generations=loaded.experiment.epoch,
                 flush_epochs=loaded.experiment.flush_epochs,
                 best_forms=loaded.experiment.forms.best,
+                redrawn=plan.redrawn,
+                foreign=_foreign(plan, placement, host),
             )
         )
     return tuple(plans)
+
+
+def _foreign(plan: Plan, placement: Sequence[int], host: int) -> tuple[IslandSpec, ...]:
+    """Give the islands of other hosts whose genotypes adapters of this one are to translate."""
+    sources = {edge.source for edge in plan.edges if edge.adapter and placement[edge.target] == host}
+    for channel in plan.redrawn:
+        if channel.adapter and any(placement[number] == host for number, _ in channel.members):
+            sources |= {number for number, _ in channel.members}
+    return tuple(plan.islands[source] for source in sorted(sources) if placement[source] != host)
 
 
 def _islands(loaded: Loaded) -> tuple[IslandSpec, ...]:
@@ -98,60 +105,3 @@ def _islands(loaded: Loaded) -> tuple[IslandSpec, ...]:
                 )
             )
     return tuple(specs)
-
-
-def _edges(settings: ChannelSettings, number: int, name: str, islands: Sequence[IslandSpec], where: str) -> list[Edge]:
-    channel = Channel(
-        number=number,
-        name=name,
-        kind=settings.kind,
-        every=settings.every,
-        count=settings.count,
-        select=settings.select,
-        tournament=settings.tournament,
-        replace=settings.replace,
-        accept=settings.accept,
-    )
-    edges = []
-    for source, target in _pairs(settings, islands, where):
-        if source.species != target.species:
-            got = f"{source.name} ({source.species}) and {target.name} ({target.species})"
-            remedy = "migrants travel within a species: give both the same genome, or the same 'species'"
-            raise InputError(where, "islands of one species", got, remedy)
-        for end in (source, target):
-            if settings.count > end.population:
-                got = f"{settings.count}, more than the {end.population} members of {end.name}"
-                raise InputError(f"{where}.count", "at most a deme's members", got)
-        edges.append(Edge(channel, source.number, target.number, source.name, target.name))
-    return sorted(edges, key=lambda edge: (edge.source, edge.target))
-
-
-def _pairs(settings: ChannelSettings, islands: Sequence[IslandSpec], where: str) -> list[tuple[IslandSpec, IslandSpec]]:
-    if settings.topology is None:
-        (source,) = _named([str(settings.source)], islands, f"{where}.from", single=True)
-        (target,) = _named([str(settings.target)], islands, f"{where}.to", single=True)
-        if source == target:
-            raise InputError(where, "two islands", f"'{source.name}' twice", "a channel to itself carries nothing")
-        return [(source, target)]
-    among = [settings.among] if isinstance(settings.among, str) else settings.among
-    if among is not None and len(set(among)) < max(len(among), 1):
-        got = "none" if not among else f"{', '.join(among)}"
-        raise InputError(f"{where}.among", "islands or groups, each once", got, "without 'among' it is all islands")
-    members = list(islands) if among is None else _named(among, islands, f"{where}.among", single=False)
-    edges = edges_of(settings.topology, len(members), f"{where}.topology")
-    return [(members[source], members[target]) for source, target in edges]
-
-
-def _named(names: Sequence[str], islands: Sequence[IslandSpec], where: str, *, single: bool) -> list[IslandSpec]:
-    """Give the islands by name, or by the name of their group, each once."""
-    known = list(dict.fromkeys([*(spec.group for spec in islands), *(spec.name for spec in islands)]))
-    found: dict[int, IslandSpec] = {}
-    for name in names:
-        check_name(name, known, where, "an island of the experiment")
-        for spec in islands:
-            if name == spec.name or (name == spec.group and not (single and spec.name != name)):
-                found[spec.number] = spec
-    if single and len(found) != 1:
-        members = [spec.name for spec in islands if spec.group in names]
-        raise InputError(where, "one island", f"the group '{names[0]}'", f"name one of {', '.join(members)}")
-    return list(found.values())

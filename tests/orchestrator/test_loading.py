@@ -143,18 +143,26 @@ MISTAKES = [
     ("islands.north.algorithm", {"crossover": 1.5}, "algorithm.crossover: expected less than or equal to 1, got 1.5"),
     ("islands.north-1", {}, "islands.north-1: expected islands of different names, got 'north-1', a name that the"),
     ("islands.no rth", {}, "islands.no rth"),
-    ("channels.0.topology", "torus", "channels.0.topology: expected a topology that is built, got 'torus'"),
+    ("channels.0.topology", "tours", "channels.0.topology: expected a topology, got 'tours'; did you mean 'torus'?"),
+    ("channels.0.topology", 4, "channels.0.topology: expected a topology's name, or its 'name' with parameters, got 4"),
+    ("channels.0.topology", {"rows": 2}, "channels.0.topology: expected a topology's name, or its 'name' with par"),
+    ("channels.0.topology", {"name": "torus", "row": 2}, "channels.0.topology.row: expected a known key, got 'row'"),
     ("channels.0.topology", "rnig", "channels.0.topology: expected a topology, got 'rnig'; did you mean 'ring'?"),
     ("channels.0.topology", "bits:CRITERIA", "expected a topology that can be called, got 'bits:CRITERIA', a tuple"),
-    ("channels.0.kind", "partners", "channels.0.kind: expected 'migrants', got 'partners', which comes with a later"),
+    ("channels.0.kind", "parters", "channels.0.kind: expected 'migrants', 'partners', 'components' or 'surroundings'"),
+    ("channels.0.kind", "partners", "channels.0: expected islands of which one gives partners that the other takes"),
     ("channels.0.among", "nort", "channels.0.among: expected an island of the experiment, got 'nort'; did you mean"),
     ("channels.0.among", ["north", 4], "channels.0.among: expected an island's name or a list of names, got"),
     ("channels.0.count", 10, "channels.0.count: expected at most a deme's members, got 10, more than the 9 members of"),
     ("channels.0.every", 0, "channels.0.every: expected greater than or equal to 1, got 0"),
-    ("channels.0.select", "roulette", "channels.0.select: expected 'best', 'random' or 'tournament', got 'roulette'"),
+    (
+        "channels.0.select",
+        "worst",
+        "channels.0.select: expected 'best', 'tournament', 'random', 'roulette' or 'diverse'",
+    ),
     ("channels.1.to", "west", "channels.1.to: expected an island of the experiment, got 'west'"),
-    ("channels.1.to", "south", "channels.1: expected two islands, got 'south' twice"),
-    ("channels.1.to", "north", "channels.1.to: expected one island, got the group 'north'; name one of north-0"),
+    ("channels.1.to", "south", "channels.1.to: expected two islands, got 'south' twice"),
+    ("channels.1.to", [], "channels.1.to: expected an island or a group, got none; name one"),
     ("channels.1.to", None, "channels.1: expected both 'from' and 'to', got no 'to'"),
     ("channels.1.topology", "ring", "channels.1: expected 'from' and 'to', or 'topology' and 'among', got both"),
     ("channels.1.name", "migrants-0", "channels.1.name: expected a name of its own, got 'migrants-0', as channel 0"),
@@ -207,10 +215,10 @@ def test_a_wrong_override_is_told_as_such(tmp_path, override, message) -> None:
 
 
 def test_topologies_come_from_plug_ins_but_not_under_the_projects_names(tmp_path, monkeypatch) -> None:
-    names = {"pairs": "bits:pairs", "ring": "bits:pairs", "star": "bits:pairs"}
+    names = {"pairs": "bits:pairs", "ring": "bits:pairs", "stars": "bits:pairs"}
     install(tmp_path, monkeypatch, "atoll.topologies", **names)
     assert edges_of("ring", 4, "here") == ring(4)
-    for name in ("pairs", "star", "bits:pairs"):
+    for name in ("pairs", "stars", "bits:pairs"):
         assert edges_of(name, 4, "here") == pairs(4)
     with pytest.raises(InputError, match="here: expected a topology, got 'pair'; did you mean 'pairs'"):
         edges_of("pair", 4, "here")
