@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final, Generic, Literal, TypeVar
+from typing import Final, Generic, Literal, Protocol, TypeVar
 
-Origin = Literal["seed", "random", "crossover", "mutation", "crossover+mutation", "intervention"]
+Origin = Literal["seed", "random", "crossover", "mutation", "crossover+mutation", "adaptation", "intervention"]
 G = TypeVar("G")
 
 Scores = tuple[tuple[str, float], ...]
@@ -55,6 +55,8 @@ class Individual(Generic[G]):
         Maximised, by the goals of the island where it lives; ``None`` when invalid.
     scores, error
         As in :class:`Evaluation`.
+    since
+        The island's generation in which it was born there or came there.
     """
 
     id: int
@@ -62,6 +64,21 @@ class Individual(Generic[G]):
     fitness: float | None
     scores: Scores
     error: str
+    since: int = 0
+
+
+class Rated(Protocol):
+    """Whatever has an id and a fitness: an individual at home or on its way."""
+
+    @property
+    def id(self) -> int:
+        """As of :class:`Individual`."""
+        ...
+
+    @property
+    def fitness(self) -> float | None:
+        """As of :class:`Individual`."""
+        ...
 
 
 def make_id(island: int, count: int) -> int:
@@ -74,8 +91,15 @@ def home_of(individual: int) -> int:
     return individual >> COUNTER_BITS
 
 
-def merit(individual: Individual[Any]) -> tuple[float, int]:
+def merit(individual: Rated) -> tuple[float, int]:
     """Give a key that sorts the best first: valid before invalid, higher fitness first, then the lower id."""
     if individual.fitness is None:
         return (float("inf"), individual.id)
     return (-individual.fitness, individual.id)
+
+
+def beats(one: Rated, other: Rated) -> bool:
+    """Tell whether one is strictly better than another: valid against invalid, or of higher fitness."""
+    if one.fitness is None:
+        return False
+    return other.fitness is None or one.fitness > other.fitness

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum, unique
-from typing import Final
+from typing import Final, final
 
 import numpy as np
 
@@ -45,3 +45,30 @@ def stream(seed: int, island: int, purpose: Purpose, epoch: int, *extra: int) ->
     """
     key = (island, int(purpose), epoch, *extra)
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(entropy=seed, spawn_key=key)))
+
+
+@final
+class EpochStreams:
+    """The streams of one island in one epoch, each made when it is first drawn from: making one takes its time.
+
+    Parameters
+    ----------
+    seed, island, epoch
+        As for :func:`stream`.
+    """
+
+    __slots__ = ("_epoch", "_island", "_made", "_seed")
+
+    def __init__(self, seed: int, island: int, epoch: int) -> None:
+        self._seed: Final = seed
+        self._island: Final = island
+        self._epoch: Final = epoch
+        self._made: Final[dict[tuple[int, ...], np.random.Generator]] = {}
+
+    def __call__(self, purpose: Purpose, *extra: int) -> np.random.Generator:
+        """Give the generator for a purpose: the same one each time, wherever its draws have come to."""
+        key = (purpose, *extra)
+        made = self._made.get(key)
+        if made is None:
+            made = self._made[key] = stream(self._seed, self._island, purpose, self._epoch, *extra)
+        return made

@@ -1,55 +1,157 @@
-"""Choosing who emigrates. Each chooser takes a ranked deme and gives distinct members, the best of them first."""
+"""Choosing who emigrates. Each chooser takes a ranked deme and gives so many distinct members, by their places."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Final
+from typing import Any, Final, final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from islands.individual import Individual
+from islands.kinds.protocol import Biology
 from islands.migration.channel import Channel
-
-Chooser = Callable[[int, Channel, np.random.Generator], list[int]]
-"""From the deme's size, the channel and a stream to ``channel.count`` distinct places in the ranking."""
+from islands.streams import EpochStreams, Purpose
 
 
-def best(size: int, channel: Channel, rng: np.random.Generator) -> list[int]:
+@final
+class Crowd:
+    """A ranked deme to choose from, and how far its members are apart, which is worked out once and when asked for.
+
+    Parameters
+    ----------
+    order
+        The members, best first.
+    biology
+        Tells how different two are.
+    """
+
+    __slots__ = ("_apart", "_biology", "order")
+
+    def __init__(
+        self, order: Sequence[Individual[Any]], biology: Biology[Any], apart: NDArray[np.float64] | None = None
+    ) -> None:
+        self.order: Final = order
+        self._biology: Final = biology
+        self._apart = apart
+
+    def __len__(self) -> int:
+        return len(self.order)
+
+    def apart(self) -> NDArray[np.float64]:
+        """Give the distances of all members from all, (n, n), 0 where the kind tells none."""
+        if self._apart is None:
+            size = len(self.order)
+            self._apart = np.zeros((size, size))
+            for place, one in enumerate(self.order):
+                for before in range(place):
+                    found = self._biology.diversity((self.order[before].genotype, one.genotype))
+                    self._apart[place, before] = self._apart[before, place] = found or 0.0
+        return self._apart
+
+    def without(self, places: Sequence[int]) -> Crowd:
+        """Give the crowd once the members at these places have left."""
+        gone = set(places)
+        left = [place for place in range(len(self.order)) if place not in gone]
+        apart = None if self._apart is None else self._apart[np.ix_(left, left)]
+        return Crowd([self.order[place] for place in left], self._biology, apart)
+
+
+Choose = Callable[[Crowd, int, Channel, EpochStreams], list[int]]
+"""From a crowd, how many (at most all of them), the channel and the streams to distinct places, ascending."""
+
+
+def best(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
     """Choose the best."""
-    del size, rng
-    return list(range(channel.count))
+    del crowd, channel, streams
+    return list(range(count))
 
 
-def random(size: int, channel: Channel, rng: np.random.Generator) -> list[int]:
+def random(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
     """Choose at random, each set of members as likely."""
-    return sorted(int(place) for place in rng.choice(size, size=channel.count, replace=False))
+    rng = streams(Purpose.EMIGRANTS, channel.number)
+    return sorted(rng.choice(len(crowd), size=count, replace=False).tolist())
 
 
-def tournament(size: int, channel: Channel, rng: np.random.Generator) -> list[int]:
-    """Hold one tournament after the other among those not chosen yet."""
-    left = list(range(size))
+def tournament(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
+    """Hold one tournament after the other among those not chosen yet, its entrants drawn with replacement."""
+    rng = streams(Purpose.EMIGRANTS, channel.number)
+    left = list(range(len(crowd)))
     chosen = []
-    for _ in range(channel.count):
+    for _ in range(count):
         entrants = rng.integers(0, len(left), size=channel.tournament)
         chosen.append(left.pop(int(entrants.min())))
     return sorted(chosen)
 
 
-CHOOSERS: Final[Mapping[str, Chooser]] = {"best": best, "random": random, "tournament": tournament}
+def roulette(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
+    """Draw one after the other of those not drawn yet, each as likely as its weight says.
+
+    A member weighs what its fitness is above the worst valid one's; the worst and the invalid weigh nothing. Where
+    nothing has weight any more, all being alike or those with weight being drawn, the rest are as likely as each other:
+    first the valid among them, then the invalid.
+    """
+    rng = streams(Purpose.EMIGRANTS, channel.number)
+    # Halved, so that no difference of two finite values is infinite.
+    halves = [one.fitness / 2 for one in crowd.order if one.fitness is not None]
+    span = halves[0] - halves[-1] if halves else 0.0
+    weights = [(half - halves[-1]) / span for half in halves] if span > 0 else []
+    weighty, valid, size = sum(weight > 0 for weight in weights), len(halves), len(crowd)
+    weights = weights[:weighty]
+    left = list(range(weighty))
+    chosen: list[int] = []
+    while left and len(chosen) < count:
+        sums = np.cumsum(weights)
+        at = min(int(np.searchsorted(sums, rng.random() * sums[-1], side="right")), len(left) - 1)
+        chosen.append(left.pop(at))
+        weights.pop(at)
+    for low, high in ((weighty, valid), (valid, size)):
+        wanted = min(count - len(chosen), high - low)
+        if wanted:
+            chosen += [low + place for place in rng.choice(high - low, size=wanted, replace=False).tolist()]
+    return sorted(chosen)
 
 
-def emigrants(
-    order: Sequence[Individual[Any]], channel: Channel, rng: np.random.Generator
-) -> tuple[Individual[Any], ...]:
-    """Choose ``channel.count`` distinct members of a ranked deme.
+def diverse(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
+    """Choose those who are most different.
+
+    First the member of the greatest mean distance from all; then, one by one, the one whose nearest of those chosen is
+    farthest away (Gonzalez 1985); of equals the better. Distances are what the kind calls the diversity of two.
+    """
+    del channel, streams
+    if count == 0:
+        return []
+    apart = crowd.apart()
+    chosen = [int(apart.mean(axis=1).argmax())]
+    nearest = apart[chosen[0]].copy()
+    while len(chosen) < count:
+        nearest[chosen[-1]] = -1.0
+        chosen.append(int(nearest.argmax()))
+        np.minimum(nearest, apart[chosen[-1]], out=nearest)
+    return sorted(chosen)
+
+
+CHOOSERS: Final[Mapping[str, Choose]] = {
+    "best": best,
+    "tournament": tournament,
+    "random": random,
+    "roulette": roulette,
+    "diverse": diverse,
+}
+
+
+def emigrants(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
+    """Choose distinct members of a crowd, by their places, the best of them first; all where there are no more.
 
     Parameters
     ----------
-    order
-        The deme, best first; at least ``channel.count`` members.
+    crowd
+        The deme.
+    count
+        How many travel.
     channel
-        Says how many and how.
-    rng
-        The stream of this edge and epoch.
+        Says how they are chosen.
+    streams
+        EMIGRANTS, by channel, draws.
     """
-    return tuple(order[place] for place in CHOOSERS[channel.select](len(order), channel, rng))
+    return CHOOSERS[channel.select](crowd, min(count, len(crowd)), channel, streams)

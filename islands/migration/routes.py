@@ -95,6 +95,15 @@ class Routes:
         drawn = self._drawn(epoch)[1].get(island, ())
         return tuple(sorted((*fixed, *drawn), key=lambda edge: (edge.channel.number, edge.source)))
 
+    def channels_into(self, island: int) -> tuple[Channel, ...]:
+        """Give the channels that bring an island something in some epoch, by number.
+
+        What a channel brought is held after the edge that it came on is gone.
+        """
+        found = [edge.channel for edge in self._incoming.get(island, ())]
+        found += [one.channel for one in self._redrawn if any(island == number for number, _ in one.members)]
+        return tuple(sorted(dict.fromkeys(found), key=lambda channel: channel.number))
+
     def _draw(self, epoch: int) -> tuple[dict[int, list[Edge]], dict[int, list[Edge]]]:
         outgoing: dict[int, list[Edge]] = defaultdict(list)
         incoming: dict[int, list[Edge]] = defaultdict(list)

@@ -7,13 +7,10 @@ from collections import Counter
 
 import pytest
 from archipelagos import LENGTH, island, ring
-from scipy import stats
 
 from islands.individual import Individual, make_id
 from islands.migration.channel import Channel, Migrant, Packet
-from islands.migration.emigrants import CHOOSERS, emigrants
 from islands.selection import ranked
-from islands.streams import Purpose, stream
 
 
 def migrant(identity: int, ones: int, fitness: float | None = None) -> Migrant:
@@ -128,26 +125,3 @@ def test_a_migrant_is_scored_again_where_the_scoring_differs_and_only_there(isle
     assert step.state.deme[0].id == 5
     assert step.state.deme[0].fitness == 24.0
     assert [row.evaluations for row in step.records.generations] == [11]
-
-
-@pytest.mark.parametrize("select", sorted(CHOOSERS))
-@pytest.mark.parametrize("count", [1, 3, 12])
-def test_every_chooser_gives_distinct_members_best_first(select, count) -> None:
-    deme = [Individual(n, (), float(-n), (), "") for n in range(12)]
-    for epoch in range(20):
-        rng = stream(1, 0, Purpose.EMIGRANTS, epoch)
-        chosen = emigrants(deme, Channel(0, "c", count=count, select=select), rng)
-        assert [one.id for one in chosen] == sorted({one.id for one in chosen})
-        assert len(chosen) == count
-
-
-def test_random_emigrants_are_uniform_and_tournaments_prefer_the_better() -> None:
-    deme = [Individual(n, (), float(-n), (), "") for n in range(6)]
-    rng = stream(3, 0, Purpose.EMIGRANTS, 1)
-    drawn = Counter(
-        one.id for _ in range(3000) for one in emigrants(deme, Channel(0, "c", count=2, select="random"), rng)
-    )
-    assert stats.chisquare([drawn[n] for n in range(6)]).pvalue > 1e-3
-    held = Counter(emigrants(deme, Channel(0, "c", select="tournament", tournament=2), rng)[0].id for _ in range(6000))
-    expected = [6000 * ((6 - n) ** 2 - (5 - n) ** 2) / 36 for n in range(6)]
-    assert stats.chisquare([held[n] for n in range(6)], expected).pvalue > 1e-3

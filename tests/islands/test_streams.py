@@ -7,9 +7,10 @@ import itertools
 import pytest
 from archipelagos import island, ring
 
-import islands.island
+import islands.streams
 from islands.migration.channel import Channel
-from islands.streams import Purpose, stream
+from islands.settings import Algorithm
+from islands.streams import EpochStreams, Purpose, stream
 
 
 def test_every_key_has_a_stream_of_its_own() -> None:
@@ -33,7 +34,7 @@ def test_no_stream_is_drawn_from_for_two_purposes(monkeypatch, epoch) -> None:
         asked.append(key)
         return stream(*key)
 
-    monkeypatch.setattr(islands.island, "stream", recorded)
+    monkeypatch.setattr(islands.streams, "stream", recorded)
     isles = [island(n, ring(2, Channel(0, "a", count=2, select="random", replace="random"))) for n in (0, 1)]
     steps = [isle.begin() for isle in isles]
     for _ in range(epoch):
@@ -48,4 +49,25 @@ def test_no_stream_is_drawn_from_for_two_purposes(monkeypatch, epoch) -> None:
     if epoch == 0:
         assert purposes == {Purpose.INITIAL}
     else:
-        assert purposes >= {Purpose.SELECTION, Purpose.VARIATION, Purpose.EMIGRANTS, Purpose.REPLACEMENT}
+        expected = {Purpose.SELECTION, Purpose.VARIATION, Purpose.EMIGRANTS}
+        # Nobody arrives in epoch 1: migrants do not travel at the end of epoch 0.
+        assert purposes == (expected if epoch == 1 else {*expected, Purpose.REPLACEMENT})
+
+
+def test_a_deme_of_one_that_sends_its_best_draws_variation_alone(monkeypatch) -> None:
+    asked: list[tuple] = []
+    monkeypatch.setattr(islands.streams, "stream", lambda *key: asked.append(key) or stream(*key))
+    edges = ring(2, Channel(0, "a", accept="better"))
+    isles = [island(n, edges, population=1, algorithm=Algorithm(name="plus", crossover=0)) for n in (0, 1)]
+    steps = [isle.begin() for isle in isles]
+    asked.clear()
+    for isle, step, other in zip(isles, steps, steps[::-1], strict=True):
+        isle.advance(isle.advance(step.state, 3, other.departures).state, 3, ())
+    assert [key[2] for key in asked] == [Purpose.VARIATION] * 4
+
+
+def test_epoch_streams_go_on_where_their_draws_have_come_to() -> None:
+    streams, plain = EpochStreams(7, 3, 12), stream(7, 3, Purpose.ROUTING, 12, 4)
+    drawn = [streams(Purpose.ROUTING, 4).random() for _ in range(3)]
+    assert drawn == plain.random(3).tolist()
+    assert streams(Purpose.ROUTING, 5) is not streams(Purpose.ROUTING, 4)

@@ -1,0 +1,171 @@
+"""Scoring a member together with partners: who is chosen of those shown, and what the pairings make together.
+
+A member is scored by as many pairings as the channel with the most chosen partners has; where a channel has fewer, its
+partners come round again. What the pairings make together is the matter of the first channel of partners.
+Schemes after Panait, Luke and Wiegand 2006, "Biasing coevolutionary search for optimal multiagent behaviors"; the
+archive after Rosin and Belew 1997, "New methods for competitive coevolution".
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple, TypeVar
+
+from islands.holdings import Holdings, pool
+from islands.individual import Evaluation
+from islands.kinds.protocol import Symbiotic
+from islands.migration.channel import Channel, Migrant, Pairing
+from islands.scoring import scored_with
+from islands.streams import EpochStreams, Purpose
+
+G = TypeVar("G")
+USUAL = Pairing()
+
+
+class Side(NamedTuple):
+    """The partners of one channel in one epoch.
+
+    Attributes
+    ----------
+    channel
+        Its number.
+    partners
+        Those that every member is paired with, or that they are drawn from, best first.
+    drawn
+        How many are drawn for each member; 0 where all are paired with all partners.
+    """
+
+    channel: int
+    partners: tuple[Migrant, ...]
+    drawn: int
+
+
+class Sides(NamedTuple):
+    """The partners of all channels in one epoch.
+
+    Attributes
+    ----------
+    sides
+        By channel.
+    pairing
+        Of the first channel: how the pairings' scores become one.
+    key
+        Equal where members are paired alike.
+    """
+
+    sides: tuple[Side, ...]
+    pairing: Pairing
+    key: str
+
+
+def sides_of(channels: Sequence[Channel], holdings: Holdings, streams: EpochStreams) -> Sides | None:
+    """Give the partners that members are paired with in this epoch; ``None`` until each channel has shown someone.
+
+    Parameters
+    ----------
+    channels
+        All channels of partners that reach the island, by number.
+    holdings
+        What it holds.
+    streams
+        PARTNERS, by channel, draws from an archive.
+    """
+    sides = []
+    for channel in channels:
+        shown = pool(holdings, channel.number)
+        if not shown:
+            return None
+        sides.append(_side(channel, shown, holdings, streams))
+    if not sides:
+        return None
+    first = channels[0].pairing or USUAL
+    meaning: list[Any] = [first.score]
+    for channel, side in zip(channels, sides, strict=True):
+        # Who is drawn does not hang on the order of those drawn from.
+        ids = [one.id for one in side.partners]
+        meaning.append(
+            [channel.number, (channel.pairing or USUAL).scheme, side.drawn, sorted(ids) if side.drawn else ids]
+        )
+    return Sides(tuple(sides), first, hashlib.sha256(json.dumps(meaning).encode()).hexdigest())
+
+
+def _side(channel: Channel, shown: tuple[Migrant, ...], holdings: Holdings, streams: EpochStreams) -> Side:
+    pairing = channel.pairing or USUAL
+    if pairing.scheme == "random":
+        return Side(channel.number, shown, min(pairing.count, len(shown)))
+    if pairing.scheme == "several":
+        return Side(channel.number, shown[: pairing.count], 0)
+    if pairing.scheme == "best":
+        return Side(channel.number, shown[:1], 0)
+    past = [one for old in holdings.archives if old.channel == channel.number for one in old.travellers]
+    past = [one for one in past if one.id != shown[0].id]
+    wanted = min(pairing.count - 1, len(past))
+    places: list[int] = list(range(wanted))
+    if 0 < wanted < len(past):
+        rng = streams(Purpose.PARTNERS, channel.number)
+        places = sorted(rng.choice(len(past), size=wanted, replace=False).tolist())
+    return Side(channel.number, (shown[0], *(past[place] for place in places)), 0)
+
+
+def scored_in_pairs(
+    biology: Symbiotic[G], genotype: G, company: Sides, streams: EpochStreams, pulse: Callable[[], None]
+) -> tuple[Evaluation, tuple[int, ...]]:
+    """Score a genotype by all of its pairings.
+
+    Returns
+    -------
+    What they make together, and the ids of the partners, pairing by pairing.
+    """
+    chosen = [_chosen(side, streams) for side in company.sides]
+    found: list[Evaluation] = []
+    ids: list[int] = []
+    for pairing in range(max(len(partners) for partners in chosen)):
+        together = tuple(partners[pairing % len(partners)] for partners in chosen)
+        pulse()
+        found.append(scored_with(biology, genotype, together))
+        ids.extend(one.id for one in together)
+    return combined(found, company.pairing), tuple(ids)
+
+
+def _chosen(side: Side, streams: EpochStreams) -> tuple[Migrant, ...]:
+    if not side.drawn:
+        return side.partners
+    if len(side.partners) == 1:
+        return side.partners
+    rng = streams(Purpose.PARTNERS, side.channel)
+    places = rng.choice(len(side.partners), size=side.drawn, replace=False).tolist()
+    return tuple(side.partners[place] for place in sorted(places))
+
+
+def combined(found: Sequence[Evaluation], pairing: Pairing) -> Evaluation:
+    """Make one evaluation of those of an individual's pairings.
+
+    ``mean``: fitness and each score are means over the valid pairings. ``best`` and ``worst``: those of the pairing
+    with the highest or the lowest fitness, of equals the first. The whole is invalid when no pairing is valid, with
+    ``worst`` already when one is not; scores and error are then those of the first invalid pairing. Times add up.
+    """
+    if len(found) == 1:
+        return found[0]
+    growth, evaluation = (math.fsum(one.growth_ms for one in found), math.fsum(one.evaluation_ms for one in found))
+    notes = tuple(note for one in found for note in one.notes)
+    valid = [(one.fitness, one) for one in found if one.fitness is not None]
+    if not valid or (pairing.score == "worst" and len(valid) < len(found)):
+        first = next(one for one in found if one.fitness is None)
+        return Evaluation(None, first.scores, first.error, growth, evaluation, notes)
+    if pairing.score == "mean":
+        fitness = math.fsum(value for value, _ in valid) / len(valid)
+        return Evaluation(fitness, _means([one for _, one in valid]), "", growth, evaluation, notes)
+    choose = max if pairing.score == "best" else min
+    fitness, one = choose(valid, key=lambda pair: pair[0])
+    return Evaluation(fitness, one.scores, "", growth, evaluation, notes)
+
+
+def _means(found: Sequence[Evaluation]) -> tuple[tuple[str, float], ...]:
+    values: dict[str, list[float]] = {}
+    for one in found:
+        for name, value in one.scores:
+            values.setdefault(name, []).append(value)
+    return tuple((name, math.fsum(values[name]) / len(values[name])) for name in sorted(values))
