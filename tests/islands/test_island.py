@@ -8,19 +8,13 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from archipelagos import LENGTH, island, ring, spec
+from archipelagos import LENGTH, island, ring, spec, without_clock
 
 from islands.individual import COUNTER_BITS, Individual, home_of, make_id
 from islands.migration.channel import Channel, Migrant, Packet
 from islands.migration.routes import Routes
 from islands.selection import ranked
 from islands.settings import Algorithm
-
-
-def without_clock(records):
-    born = [row._replace(growth_ms=0, evaluation_ms=0) for row in records.born]
-    generations = [row._replace(wall_ms=0) for row in records.generations]
-    return born, records.rescored, generations, records.crossings, records.notes
 
 
 def test_epoch_zero_is_the_first_population_scored() -> None:
