@@ -1,0 +1,116 @@
+"""The misconfigurations that people make: each refused by ``check`` and ``run`` alike, in a line that names the key."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from traders import trading
+
+from experiments import bits, write
+from orchestrator.cli import main
+
+
+def seven(**channel: object) -> str:
+    return json.dumps(bits(islands={"north": {"count": 7}}, channels=[channel]), indent=1)
+
+
+def differing() -> str:
+    data = bits()
+    data["islands"]["south"]["genome"] = {"length": 16}
+    return json.dumps(data, indent=1)
+
+
+def unreached() -> str:
+    return json.dumps(bits(channels=[{"topology": "ring", "among": "north"}]), indent=1)
+
+
+def without_partners() -> str:
+    data = trading()
+    data["channels"][1] = {"topology": "unconnected", "among": "host"}
+    return json.dumps(data, indent=1)
+
+
+TWICE = """
+islands:
+  north: {kind: "bits:BitsKind", fitness: {ones: {goal: maximise}}}
+  north: {kind: "bits:BitsKind", fitness: {ones: {goal: maximise}}}
+"""
+NUMBERED = """
+islands:
+  north: {kind: "bits:BitsKind", count: 2, fitness: {ones: {goal: maximise}}}
+  north-1: {kind: "bits:BitsKind", fitness: {ones: {goal: maximise}}}
+"""
+LONELY = {"name": "edges", "edges": [[n, n + 1] for n in range(6)]}
+
+CASES = {
+    "a channel to itself": (
+        json.dumps(bits(channels=[{"from": "south", "to": "south"}]), indent=1), "channels.0.to", "got 'south' twice"
+    ),
+    "an edge to itself": (
+        seven(topology={"name": "edges", "edges": [[0, 1], [2, 2]]}), "channels.0.topology.edges.1", "got '2' twice"
+    ),
+    "a species mismatch": (differing(), "channels.0", "whose genomes differ in length (32, 16)"),
+    "a topology that does not fit": (seven(topology="torus"), "channels.0.topology", "6 (2 x 3) or 8 (2 x 4) islands,"),
+    "a hypercube of seven": (seven(topology="hypercube"), "channels.0.topology", "expected 4 or 8 islands, got 7"),
+    "a rate over one": (seven(topology="ring", rate=1.01), "channels.0.rate", "less than or equal to 1, got 1.01"),
+    "an interval of zero": (seven(topology="ring", every=0), "channels.0.every", "greater than or equal to 1, got 0"),
+    "a graph file that is broken": (
+        seven(topology={"name": "graph", "file": "broken.graphml"}), "channels.0.topology.file", "line 2: mismatched ta"
+    ),
+    "a graph file that is missing": (
+        seven(topology={"name": "graph", "file": "none.graphml"}), "channels.0.topology.file", "which is not there"
+    ),
+    "an island that nobody reaches": (
+        seven(topology=LONELY), "channels.0.topology", "got none of its edges to north-0; add one, or set unreached: al"
+    ),
+    "an island on no channel": (unreached(), "channels", "got south, which is on none; name it in 'among', or add"),
+    "partners missing": (without_partners(), "islands.host.kind", "partners missing: add {kind: partners"),
+    "two islands of one name": (TWICE, "", "each key once, got 'north' again (line 3)"),
+    "two islands of one name by count": (NUMBERED, "islands.north-1", "'north-1', a name that the islands of 'north'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_is_refused_by_check_and_by_run_in_one_line_that_names_the_key(tmp_path, name) -> None:
+    text, key, told = CASES[name]
+    path = tmp_path / "wrong.yaml"
+    path.write_text(text, encoding="utf-8")
+    (tmp_path / "broken.graphml").write_text("<graphml>\n</graph>\n", encoding="utf-8")
+    before = sorted(tmp_path.iterdir())
+    for arguments in (["check", path], ["run", path, "--runs-dir", tmp_path / "runs"]):
+        result = CliRunner().invoke(main, [str(argument) for argument in arguments])
+        assert result.exit_code == 2, result.output
+        assert result.stdout == ""
+        (line,) = result.stderr.strip().splitlines()
+        assert line.startswith(f"atoll: {path}:")
+        assert f": {key}: expected " in line if key else "expected " in line
+        assert told in line
+        assert sorted(tmp_path.iterdir()) == before
+
+
+def test_what_is_wrong_by_an_override_is_told_as_such(tmp_path) -> None:
+    path = write(tmp_path, bits())
+    for override, told in (
+        ("channels.0.topology=hypercube", None),
+        ("channels.0.topology=torus", None),
+        ("channels.0.rate=2", "--set channels.0.rate: expected less than or equal to 1, got 2"),
+        ("islands.north.count=2", None),
+        (
+            "channels.0.topology={name: torus, rows: 3}",
+            "--set channels.0.topology.rows: expected rows that divide 4 isl",
+        ),
+    ):
+        result = CliRunner().invoke(main, ["check", str(path), "--set", override, "--set", "channels.1.to=north"])
+        assert (result.exit_code == 0) == (told is None), result.stderr
+        assert told is None or told in result.stderr
+
+
+def test_one_island_is_noted_by_check(tmp_path) -> None:
+    data = bits(islands={"north": {"count": 4}}, channels=[{"topology": "hypercube"}])
+    result = CliRunner().invoke(main, ["check", str(write(tmp_path, data)), "--set", "islands.north.count=1"])
+    assert result.exit_code == 0
+    assert "a hypercube of one island, north, carries nothing" in result.stderr
+    assert not list(Path(tmp_path).glob("runs"))
