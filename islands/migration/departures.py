@@ -118,7 +118,9 @@ class Departures:
         return full
 
     def _chosen(self, channel: Channel) -> tuple[Migrant, ...]:
-        crowd = everyone = self._crowd or Crowd(ranked(self._deme), self._biology)
+        if self._crowd is None:
+            self._crowd = Crowd(ranked(self._deme), self._biology)
+        crowd = self._crowd
         if channel.kind in ("components", "surroundings"):
             valid = [place for place, one in enumerate(crowd.order) if one.fitness is not None]
             if len(valid) < len(crowd):
@@ -127,8 +129,7 @@ class Departures:
         chosen = [crowd.order[place] for place in places]
         if channel.move:
             self.gone.update(one.id for one in chosen)
-            everyone = everyone.without(places)
-        self._crowd = everyone
+            self._crowd = self._crowd.without(places)
         return tuple(
             Migrant(one.id, text, one.fitness, one.scores, one.error)
             for one in chosen
