@@ -1,6 +1,10 @@
-"""Migration: channels carry packets of migrants from deme to deme.
+"""Migration: channels carry packets from island to island.
 
-At an epoch's end each outgoing edge of an island chooses emigrants from its deme (:mod:`islands.migration.emigrants`)
-and sends them as a :class:`~islands.migration.channel.Packet` of plain values. At the start of the next epoch, before
-the first selection, the target lets them join (:mod:`islands.migration.replacement`) in the order of its channels.
+At an epoch's end each outgoing edge of an island sends one :class:`~islands.migration.channel.Packet` of plain values
+(:mod:`islands.migration.departures`), for which members are chosen (:mod:`islands.migration.emigrants`) when the
+channel's conditions hold (:mod:`islands.migration.triggers`). At the start of the next epoch, before the first
+selection, the target takes it in: migrants stand at its gate (:mod:`islands.migration.gate`), where some are let in, in
+place of residents (:mod:`islands.migration.replacement`), translated on the way where genomes differ
+(:mod:`islands.migration.adapters`); partners, components and surroundings are held (:mod:`islands.holdings`).
+:mod:`islands.migration.routes` knows which edges there are.
 """

@@ -6,7 +6,7 @@ import json
 
 import pytest
 from archipelagos import LENGTH, edge, island, spec
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from genome.errors import InputError
@@ -25,12 +25,14 @@ def surface(number: int = 0, **genome):
     return spec(number, kind="surface", genome=genome)
 
 
+@settings(deadline=None)  # the first example imports the kind
 @given(st.text("01", min_size=1, max_size=20), st.integers(1, 30))
 def test_resizing_bits_cuts_off_or_repeats(text, length) -> None:
     resized = build_adapter("resize", bits(0, len(text)), bits(1, length), WHERE)(text)
     assert resized == (text * 30)[:length]
 
 
+@settings(deadline=None)
 @given(st.lists(st.integers(0, 2**31), min_size=1, max_size=20), st.integers(2, 30), st.integers(2, 400))
 def test_resizing_genes_brings_them_under_the_ceiling(genes, length, ceiling) -> None:
     resize = build_adapter("resize", surface(0), surface(1, length=length, gene_ceiling=ceiling), WHERE)
