@@ -12,14 +12,14 @@ from genome.errors import InputError
 from islands.individual import Evaluation, Scores
 from islands.kinds.protocol import Biology
 from islands.kinds.registry import resolve_kind
-from islands.scoring import scored
 from islands.spec import IslandSpec
+from orchestrator.circumstances import Circumstances
 from orchestrator.folder import RunFolder
 from orchestrator.loading import load_experiment
 from orchestrator.plan import make_plan
 from orchestrator.query import ask
 
-COLUMNS = "id, island, genotype, fitness, scores, error"
+COLUMNS = "id, island, epoch, genotype, fitness, scores, error, partners"
 
 FORMS = """
     with top as (
@@ -36,14 +36,16 @@ FORMS = """
 
 @dataclass(frozen=True, slots=True)
 class Logged:
-    """An individual as the log has it."""
+    """An individual as the log has it: as first scored, on the island that bred it."""
 
     id: int
     island: str
+    epoch: int
     genotype: str
     fitness: float | None
     scores: Scores
     error: str
+    partners: tuple[int, ...] = ()
 
 
 def by_id(folder: RunFolder, ids: Sequence[int]) -> list[Logged]:
@@ -82,8 +84,10 @@ def best(folder: RunFolder, count: int) -> list[Logged]:
 def _logged(folder: RunFolder, clause: str) -> list[Logged]:
     answer = ask(folder.log, f"select {COLUMNS} from individuals {clause}")  # noqa: S608 - numbers alone go in
     return [
-        Logged(identity, island, genotype, fitness, tuple(sorted((scores or {}).items())), error)
-        for identity, island, genotype, fitness, scores, error in answer.rows
+        Logged(
+            identity, island, epoch, genotype, fitness, tuple(sorted((scores or {}).items())), error, tuple(partners)
+        )
+        for identity, island, epoch, genotype, fitness, scores, error, partners in answer.rows
     ]
 
 
@@ -93,11 +97,13 @@ class Nursery:
     def __init__(self, folder: RunFolder) -> None:
         loaded = load_experiment(folder.experiment)
         self._run = folder.name
-        self._specs: dict[str, IslandSpec] = {spec.name: spec for spec in make_plan(loaded).islands}
+        plan = make_plan(loaded)
+        self._specs: dict[str, IslandSpec] = {spec.name: spec for spec in plan.islands}
         self._made: dict[str, Biology[Any]] = {}
+        self._circumstances = Circumstances(folder, plan, loaded.experiment.seed, self.biology)
 
     def biology(self, island: str) -> Biology[Any]:
-        """Give the biology of an island by name."""
+        """Give the biology of an island by name, as it is while it holds nothing."""
         spec = self._specs[island]
         if spec.group not in self._made:
             kind = resolve_kind(spec.kind, spec.where("kind"))
@@ -105,13 +111,12 @@ class Nursery:
         return self._made[spec.group]
 
     def score(self, logged: Logged) -> Evaluation:
-        """Grow and score an individual again."""
-        biology = self.biology(logged.island)
-        return scored(biology, biology.decode(logged.genotype))
+        """Grow and score an individual again: among the forms, and with the partners, that it was first scored with."""
+        return self._circumstances.score(logged.island, logged.epoch, logged.genotype, logged.partners)
 
     def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
         """Write an individual's form as ISLAND-ID.SUFFIX."""
-        biology = self.biology(logged.island)
+        biology = self._circumstances.biology(logged.island, logged.epoch)
         stem = folder / f"{logged.island}-{logged.id}"
         facts: dict[str, str | float | bool] = {"run": self._run, "island": logged.island, "id": str(logged.id)}
         if logged.fitness is not None:

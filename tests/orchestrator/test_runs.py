@@ -240,7 +240,7 @@ def test_names_are_numbered_by_default_and_refused_when_asked_for(tmp_path) -> N
 
 
 def test_a_failed_start_leaves_no_folder(tmp_path, monkeypatch) -> None:
-    for data in (bits(epochs=-1), bits(channels=[{"topology": "star"}])):
+    for data in (bits(epochs=-1), bits(channels=[{"topology": "stars"}])):
         with pytest.raises(InputError):
             run(tmp_path, data)
     from islands.host import Host

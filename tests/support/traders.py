@@ -86,6 +86,12 @@ class SkinBiology(BitsBiology):
         return _more(super().evaluate(genotype), float(-overlap))
 
 
+    def offer(self, genotype: Bits, kind: ChannelKind) -> str:
+        """Its form hangs on those around it."""
+        words = [genotype, *(json.loads(form.text) for form in self.forms)]
+        return json.dumps([sum(bits) % 2 for bits in zip(*words, strict=True)])
+
+
 class GuestKind(BitsKind):
     name: ClassVar[str] = "guest"
     gives: ClassVar[Mapping[str, str]] = {"partners": "word", "components": "part", "surroundings": "form"}
@@ -112,6 +118,7 @@ class SkinKind(BitsKind):
     name: ClassVar[str] = "skin"
     genome: ClassVar[type[Settings]] = BitsGenome
     growth: ClassVar[type[Settings]] = BitsGrowth
+    gives: ClassVar[Mapping[str, str]] = {"surroundings": "form"}
     takes: ClassVar[Mapping[str, tuple[str, ...]]] = {"surroundings": ("form",)}
 
     def build(self, spec: IslandSpec, clock: Clock) -> SkinBiology:
@@ -147,6 +154,7 @@ def trading(**changes: Any) -> dict[str, Any]:
             "guest": {"kind": "traders:GuestKind", "count": 2},
             "house": {"kind": "traders:HouseKind"},
             "skin": {"kind": "traders:SkinKind"},
+            "pelt": {"kind": "traders:SkinKind", "growth": {"fail_ending": "111"}},
             "long": {"kind": "bits:BitsKind", "genome": {"length": 16}},
             "short": {"kind": "bits:BitsKind"},
         },
@@ -157,6 +165,7 @@ def trading(**changes: Any) -> dict[str, Any]:
             {"kind": "components", "from": "guest", "to": "house", "count": 3, "keep": 4},
             {"kind": "surroundings", "from": "guest-0", "to": "skin"},
             {"from": "long", "to": "short", "adapter": "traders:Shorten", "count": 3, "mode": "move"},
+            {"kind": "surroundings", "from": "skin", "to": "pelt", "count": 2, "every": 2},
         ],
         "log": {"flush_generations": 4},
     }
