@@ -140,9 +140,9 @@ class _Wiring:
         channel = channel_of(settings, self.number, self.name, max(spec.population for spec in specs))
         redrawn = None
         if len(specs) > 1:
-            adapter = settings.adapter if len({spec.species for spec in specs}) > 1 else None
             named = tuple((spec.number, spec.name) for spec in specs)
-            redrawn = Redrawn(channel, named, topology.degree, settings.weight, adapter or "")
+            species = tuple(spec.species for spec in specs) if settings.adapter else ()
+            redrawn = Redrawn(channel, named, topology.degree, settings.weight, settings.adapter or "", species)
         return Wired(settings, where, channel, tuple(members), frozenset(members), (), redrawn)
 
     def _from_to(self, settings: ChannelSettings, where: str) -> tuple[list[Link], list[int]]:

@@ -29,6 +29,8 @@ class Redrawn:
         Targets of each member, fewer than there are members.
     weight, adapter
         As of every :class:`~islands.migration.channel.Edge` of it.
+    species
+        Of each member: islands of one species need no adapter. Empty where all need it.
     """
 
     channel: Channel
@@ -36,6 +38,7 @@ class Redrawn:
     degree: int = 1
     weight: float = 1.0
     adapter: str = ""
+    species: tuple[str, ...] = ()
 
     def edges(self, seed: int, epoch: int) -> tuple[Edge, ...]:
         """Give the edges on which packets travel at the end of an epoch, by source, then target."""
@@ -44,8 +47,11 @@ class Redrawn:
         for place, (source, name) in enumerate(self.members):
             chosen = sorted(rng.choice(len(self.members) - 1, size=self.degree, replace=False).tolist())
             for other in chosen:
-                target, target_name = self.members[other + (other >= place)]
-                edges.append(Edge(self.channel, source, target, name, target_name, self.weight, self.adapter))
+                there = other + (other >= place)
+                target, target_name = self.members[there]
+                kin = bool(self.species) and self.species[place] == self.species[there]
+                adapter = "" if kin else self.adapter
+                edges.append(Edge(self.channel, source, target, name, target_name, self.weight, adapter))
         return tuple(edges)
 
 

@@ -135,6 +135,17 @@ def test_a_random_topology_is_drawn_by_islands_and_hosts_themselves(tmp_path) ->
     assert all(len({edge.target for edge in redrawn.edges(7, 3) if edge.source == n}) == 2 for n in range(6))
 
 
+def test_a_random_topology_adapts_between_species_alone(tmp_path) -> None:
+    islands = {"north": {"count": 2}, "long": {"count": 2, "genome": {"length": 40}}}
+    channel = {"topology": {"name": "random", "degree": 3}, "adapter": "traders:Shorten"}
+    (redrawn,) = planned(tmp_path, channel, islands=islands).redrawn
+    for edge in redrawn.edges(7, 1):
+        assert bool(edge.adapter) == (edge.source_name.split("-")[0] != edge.target_name.split("-")[0])
+    assert "channels.0.adapter: expected an adapter, got 'shrink'" in broken(
+        tmp_path, {**channel, "adapter": "shrink"}, islands=islands
+    )
+
+
 @pytest.mark.parametrize("name", ["ring", "torus", "hypercube", "random", "wheel", "watts_strogatz", "barabasi_albert"])
 def test_one_island_is_no_mistake_but_noted(tmp_path, name) -> None:
     data = bits(islands={"north": {"count": 4}}, channels=[{"topology": name, "among": "north"}])
