@@ -15,6 +15,7 @@ from islands.holdings import Held
 from islands.individual import Evaluation, Individual, home_of, make_id
 from islands.migration.channel import Channel, Migrant, Packet, Trigger
 from islands.migration.departures import Departures, Standing, bundled
+from islands.migration.routes import Redrawn
 from islands.migration.triggers import pulled
 from islands.selection import ranked
 from islands.settings import Algorithm
@@ -262,8 +263,10 @@ def test_a_deme_is_scored_again_in_other_surroundings() -> None:
     assert same.records.rescored == ()
     assert [row.reason for row in same.records.crossings] == ["already here"]
     two = isle.advance(step.state, 1, [Packet(0, 2, 1, 1, "x", (migrant(71, text="surroundings:1"),))])
+    assert len(two.records.rescored) == 12
     assert all(row.fitness == dict(row.scores)["ones"] - 3 for row in two.records.rescored)
     instead = isle.advance(step.state, 1, [Packet(0, 0, 1, 1, "x", (migrant(72, text="surroundings:111"),))])
+    assert len(instead.records.rescored) == 12
     assert all(row.fitness == dict(row.scores)["ones"] - 3 for row in instead.records.rescored)
     assert {packet.scoring for packet in instead.departures} <= {instead.state.scoring}
     # The same from a fresh island: nothing hangs on what it remembers.
@@ -338,3 +341,43 @@ def test_the_latest_of_several_packets_is_what_is_held() -> None:
     house = island(1, (edge(rooms(), 0, 1),), kind=HouseKind)
     step = house.advance(house.begin().state, 1, packets)
     assert [one.id for one in step.state.held.components[0].travellers] == [73, 72, 71]
+
+
+def test_migrants_travel_on_edges_that_are_drawn_anew() -> None:
+    members = tuple((n, f"isle-{n}") for n in range(5))
+    drawn = (Redrawn(Channel(0, "a", count=2), members, degree=2),)
+    isles = [island(n, redrawn=drawn) for n in range(5)]
+    steps, pairs = [isle.begin() for isle in isles], []
+    for epoch in range(1, 6):
+        packets = [packet for step in steps for packet in step.departures]
+        steps = [
+            isle.advance(step.state, 1, [packet for packet in packets if packet.target == isle.spec.number])
+            for isle, step in zip(isles, steps, strict=True)
+        ]
+        ends = [(row.source, row.target) for step in steps for row in step.records.crossings]
+        sent = sorted((f"isle-{p.source}", f"isle-{p.target}") for p in packets for _ in p.migrants)
+        assert sorted(ends) == sent
+        assert len(ends) == (0 if epoch == 1 else 20)
+        pairs.append(sent)
+    assert pairs[1] != pairs[2] != pairs[3]
+    # Packets of several epochs came on different edges.
+    late = [Packet(0, n, 1, epoch, "x", (migrant(70 + epoch),)) for epoch in range(9) for n in (0, 2, 3, 4)]
+    routes = isles[1]._routes
+    late = [p for p in late if any(e.source == p.source for e in routes.incoming(1, p.epoch))]
+    rows = isles[1].advance(steps[1].state, 1, late).records.crossings
+    assert [(row.source, row.id) for row in rows] == [
+        (f"isle-{p.source}", p.migrants[0].id) for p in sorted(late, key=lambda p: (p.source, p.epoch))
+    ]
+    assert len({p.source for p in late}) > 2
+
+
+def test_who_is_scored_again_has_been_here_as_long_as_before() -> None:
+    isle = island(1, (edge(Channel(0, "skin", "surroundings"), 0, 1),), kind=SkinKind, algorithm=Algorithm(elite=11))
+    state = isle.advance(isle.begin().state, 6, ()).state
+    before = {one.id: one.since for one in state.deme}
+    step = isle.advance(state, 1, [Packet(0, 0, 1, 1, "x", (migrant(70, text="surroundings:1"),))])
+    assert len(step.records.rescored) == 12
+    kept = {one.id: one.since for one in step.state.deme if one.id in before}
+    assert len(kept) == 11
+    assert kept == {identity: before[identity] for identity in kept}
+    assert len(set(kept.values())) > 2
