@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from genome.settings import Settings
 from islands.kinds.registry import KINDS, resolve_kind
+from orchestrator.channels import OF_KIND
 from orchestrator.experiment import Experiment
+from orchestrator.topology.registry import TOPOLOGIES, resolve_topology
 
 
 def experiment_schema() -> dict[str, Any]:
@@ -30,4 +33,37 @@ def experiment_schema() -> dict[str, Any]:
     definitions["IslandSettings"]["allOf"] = rules
     # Islands may take any of their keys from `defaults`.
     definitions["IslandSettings"].pop("required", None)
+    _tell_of_channels(definitions)
     return schema
+
+
+def _tell_of_channels(definitions: dict[str, Any]) -> None:
+    """Say what each built topology takes, which keys belong to which kind, and that a channel has one form."""
+    channel = definitions["ChannelSettings"]
+    by_name = []
+    for name in TOPOLOGIES:
+        found = resolve_topology(name, "schema")
+        part: dict[str, Any] = {"properties": {}, "additionalProperties": False}
+        if isinstance(found, type) and issubclass(found, Settings):
+            part = found.model_json_schema(ref_template="#/$defs/{model}")
+            definitions.update(part.pop("$defs", {}))
+        part["properties"] = {"name": {"const": name}, **part["properties"]}
+        named = {"type": "object", "properties": {"name": {"const": name}}, "required": ["name"]}
+        by_name.append({"if": named, "then": part})
+        if part.get("required"):
+            by_name.append({"if": {"type": "string"}, "then": {"not": {"const": name}}})
+    keyed = {"type": "object", "properties": {"name": {"type": "string"}}, "required": ["name"]}
+    either = {"anyOf": [{"type": "string", "examples": list(TOPOLOGIES)}, keyed, {"type": "null"}]}
+    channel["properties"]["topology"] = {"title": "Topology", "default": None, **either, "allOf": by_name}
+    forms = [{"required": ["topology"]}, {"required": ["from", "to"]}]
+    strangers = [
+        {"if": {"required": [key]}, "then": {"properties": {"kind": {"const": kind}}, **_unless_usual(kind)}}
+        for key, kind in OF_KIND.items()
+    ]
+    channel["anyOf"] = forms
+    channel["allOf"] = [*strangers, {"not": {"required": ["count", "rate"]}}]
+
+
+def _unless_usual(kind: str) -> dict[str, Any]:
+    """Require a kind to be named, but for migrants, which a channel without one carries."""
+    return {} if kind == "migrants" else {"required": ["kind"]}

@@ -143,7 +143,8 @@ def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings
     kind = resolve_kind(island.kind, f"{source}: islands.{name}.kind")
     genome = validated(kind.genome, island.genome, source, ("islands", name, "genome")).model_dump(mode="json")
     growth = validated(kind.growth, island.growth, source, ("islands", name, "growth")).model_dump(mode="json")
-    if island.algorithm.elite >= island.population:
+    kept = island.algorithm.name == "generational" and island.algorithm.elitism == "keep"
+    if kept and island.algorithm.elite >= island.population:
         where = f"{source}: islands.{name}.algorithm.elite"
         raise InputError(where, f"less than the population of {island.population}", str(island.algorithm.elite))
     species = island.species

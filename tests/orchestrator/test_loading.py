@@ -242,3 +242,11 @@ def test_more_than_four_hosts_a_cpu_are_refused_before_anything_is_made(tmp_path
 def test_an_address_is_refused_by_the_backend_in_this_process(tmp_path) -> None:
     with pytest.raises(InputError, match="no address with backend: inline"):
         make_backend(load_experiment(write(tmp_path, bits())), "10.0.0.1:6379")
+
+
+def test_only_an_elite_that_is_kept_has_to_be_smaller_than_the_deme(tmp_path) -> None:
+    for algorithm in ({"name": "plus", "offspring": 1}, {"elitism": "restore"}):
+        data = bits(channels=[])
+        data["defaults"] |= {"population": 1, "algorithm": algorithm}
+        del data["islands"]["south"]["population"]
+        prepare(load_experiment(write(tmp_path, data)))
