@@ -41,7 +41,7 @@ class Compatibility:
 
     def needs(self, spec: IslandSpec) -> tuple[ChannelKind, ...]:
         """Give the kinds of channels that an island cannot do without."""
-        return needs(self._kind(spec))
+        return needs(self._kind(spec), spec)
 
     def check(self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str) -> None:
         """Check one channel.

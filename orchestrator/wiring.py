@@ -182,7 +182,7 @@ def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: C
     for spec in islands:
         for kind in fits.needs(spec):
             if spec.number not in fed[kind]:
-                expected = f"a channel of kind {kind} to {spec.name}, which islands of kind '{spec.kind}' need"
+                expected = f"a channel of kind {kind} to {spec.name}, which it needs"
                 remedy = f"{kind} missing: add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels'"
                 raise InputError(spec.where("kind"), expected, "none", remedy)
 

@@ -21,7 +21,7 @@ from genome.settings import Settings, near
 from growth.protocol import Clock
 from islands.individual import Evaluation
 from islands.kinds.protocol import Facts, Keep
-from islands.migration.channel import Migrant
+from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
 FORMATS: Final = ("txt",)
@@ -187,6 +187,10 @@ class BitsKind:
     growth: ClassVar[type[Settings]] = BitsGrowth
     gives: ClassVar[Mapping[str, str]] = {"partners": "bits"}
     takes: ClassVar[Mapping[str, tuple[str, ...]]] = {"partners": ("bits",)}
+
+    def needs(self, spec: IslandSpec) -> tuple[ChannelKind, ...]:
+        """Give ``partners`` where agreement with them is a goal."""
+        return ("partners",) if "agreement" in spec.fitness else ()
 
     def build(self, spec: IslandSpec, clock: Clock) -> BitsBiology:
         """Make the biology of one island."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from islands.kinds.protocol import Kind
 from islands.migration.channel import ChannelKind
+from islands.spec import IslandSpec
+
+Needs = Sequence[ChannelKind]
 
 
 def gives(kind: Kind, channel: ChannelKind) -> str:
@@ -24,6 +27,10 @@ def takes(kind: Kind, channel: ChannelKind) -> tuple[str, ...]:
     return tuple(taken.get(channel, ()))
 
 
-def needs(kind: Kind) -> tuple[ChannelKind, ...]:
-    """Give the kinds of channels without one of which an island of this kind has nothing to live on."""
-    return tuple(getattr(kind, "needs", ()))
+def needs(kind: Kind, spec: IslandSpec) -> tuple[ChannelKind, ...]:
+    """Give the kinds of channels that an island cannot do without.
+
+    ``needs`` is an optional attribute of a kind, ``("partners",)``, or a method that gives them for an island.
+    """
+    found: Needs | Callable[[IslandSpec], Needs] = getattr(kind, "needs", ())
+    return tuple(found(spec) if callable(found) else found)

@@ -292,7 +292,7 @@ STRANGERS = [
     ("channels.1.pairings", 5, "channels.1.pairings: expected at most 4, as many as are shown to host-0, got 5", ""),
     ("channels.1.kind", "components", "channels.1.pairing: expected 'pairing' on a channel of kind partners alone", ""),
     ("channels.1", {"topology": "unconnected", "among": "host"},
-     "islands.host.kind: expected a channel of kind partners to host-0, which islands of kin",
+     "islands.host.kind: expected a channel of kind partners to host-0, which it needs",
      "partners missing: add {kind: partners, from: ..., to: host} to 'channels'"),
 ]  # fmt: skip
 

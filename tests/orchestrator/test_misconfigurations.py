@@ -73,6 +73,20 @@ CASES = {
 }  # fmt: skip
 
 
+def test_the_project_s_own_kind_needs_partners_where_agreement_is_a_goal(tmp_path) -> None:
+    islands = {name: {"kind": "bits", "fitness": {"agreement": {"goal": "maximise"}}} for name in ("a", "b")}
+    path = write(tmp_path, bits(defaults={}, islands=islands, channels=[{"kind": "partners", "topology": "ring"}]))
+    assert CliRunner().invoke(main, ["check", str(path)]).exit_code == 0
+    for channels in ([], [{"topology": "ring"}], [{"kind": "partners", "from": "b", "to": "a"}]):
+        path = write(tmp_path, bits(defaults={}, islands=islands, channels=channels))
+        result = CliRunner().invoke(main, ["check", str(path)])
+        assert result.exit_code == 2
+        lacking = "b" if len(channels) and "from" in channels[0] else "a"
+        assert (
+            f"islands.{lacking}.kind: expected a channel of kind partners to {lacking}, which it needs" in result.stderr
+        )
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_is_refused_by_check_and_by_run_in_one_line_that_names_the_key(tmp_path, name) -> None:
     text, key, told = CASES[name]
