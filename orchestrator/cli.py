@@ -13,6 +13,7 @@ COMMANDS: Final = {
     "run": "Run an experiment.",
     "grow": "Grow one form, without evolution.",
     "check": "Validate a file without running it.",
+    "validate": "Reproduce published behaviour of island models.",
     "show": "Show how a run stands.",
     "query": "Put an SQL query to a run's log.",
     "digest": "Give one hash of what happened in a run.",
