@@ -125,3 +125,10 @@ def test_a_migrant_is_scored_again_where_the_scoring_differs_and_only_there(isle
     assert step.state.deme[0].id == 5
     assert step.state.deme[0].fitness == 24.0
     assert [row.evaluations for row in step.records.generations] == [11]
+
+
+def test_one_whose_copy_just_gave_way_is_let_in_again(isle) -> None:
+    begun = isle.begin()
+    worst = ranked(begun.state.deme)[-1].id
+    step = isle.advance(begun.state, 1, [packet(isle, migrant(5, 24), migrant(worst, 24), migrant(worst, 24))])
+    assert [row.reason for row in step.records.crossings] == ["", "", "already in deme"]
