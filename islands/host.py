@@ -1,8 +1,8 @@
 """The host: holds several islands, steps them on one thread, and writes their part of the log.
 
 It is a plain class. The in-process backend calls it as it is; ``islands.actor`` makes a Ray actor of it. What its
-islands send to each other stays inside; what they send to islands of other hosts comes out of ``advance`` as one
-box for each host, so that a driver can route boxes without looking into them.
+islands send to each other stays inside; what they send to islands of other hosts is gathered and posted to these
+directly. Which island steps when is the agenda's business (:mod:`islands.agenda`).
 """
 
 from __future__ import annotations
@@ -10,35 +10,45 @@ from __future__ import annotations
 import os
 import threading
 import time
-from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
+from collections import defaultdict, deque
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Final, final
+from typing import Any, Final, Literal, NamedTuple, final
 
 from genome.errors import InputError
-from genome.mishaps import one_line
 from growth.protocol import Clock
-from islands.individual import Individual
-from islands.island import Advance, Island, State
+from islands.agenda import Agenda, Complete, Present, Recorded, Rule
+from islands.arrivals import arrivals_detail, recorded_arrivals
+from islands.forms import best_forms, write_forms
+from islands.island import Island
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
+from islands.migration.adapters import adapters_into
 from islands.migration.channel import Edge, Packet
-from islands.migration.routes import Routes
-from islands.selection import ranked
+from islands.migration.routes import Redrawn, Routes
 from islands.spec import IslandSpec
+from islands.state import Advance, State
+from islands.tally import IslandSummary, Tally
 
+Schedule = Literal["barrier", "dataflow", "async"]
 Box = tuple[Packet, ...]
-"""What one host sends to another at an epoch's end."""
+"""What one host sends to another at a time."""
+
+Post = Callable[[int, Box], bool]
+"""Hands packets to another host; ``False`` when so many are on their way to it that these have to wait."""
 
 THREAD_VARIABLES: Final = (
     "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMBA_NUM_THREADS",
     "VECLIB_MAXIMUM_THREADS",
 )  # fmt: skip
 
-MOST_REASON: Final = 160
-"""Characters of the reason that a summary gives."""
+POST_S: Final = 0.005
+"""Packets are gathered for so long, as long as an island of the host can step."""
+
+MOST_NAMED: Final = 3
+"""Packets that are named when a host has waited in vain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +75,18 @@ class HostPlan:
         The log is written every so many epochs.
     best_forms
         How many different forms of each island are written at the end.
+    epochs
+        Epochs of the run; what islands send at the end of the last is for nobody.
+    redrawn
+        Channels whose edges are drawn anew for each epoch.
+    foreign
+        Islands of other hosts that adapters have to know.
+    schedule
+        Which packets islands wait for.
+    replay
+        The ``log`` folder of a run whose arrivals are to be repeated; empty for none.
+    patience
+        Seconds without any packet after which a host that waits gives up.
     """
 
     host: int
@@ -78,40 +100,56 @@ class HostPlan:
     generations: int
     flush_epochs: int
     best_forms: int
+    epochs: int | None = None
+    redrawn: tuple[Redrawn, ...] = ()
+    foreign: tuple[IslandSpec, ...] = ()
+    schedule: Schedule = "barrier"
+    replay: str = ""
+    patience: float = 600.0
 
 
-@dataclass(frozen=True, slots=True)
-class IslandSummary:
-    """How an island stands at an epoch's end: what the driver may see of it.
+class Advanced(NamedTuple):
+    """How far a host has come.
 
     Attributes
     ----------
-    island, epoch, generation
-        Which island, and when.
-    evaluations, migrants
-        Scorings in this epoch, and migrants that were let in at its start.
-    best, mean, invalid
-        Figures of its members.
-    champion
-        Fitness and id of the best individual that it ever bred, member still or not; of equal ones the older.
+    epoch
+        The last epoch that all of its islands have finished; -1 for none.
+    summaries
+        How they stood at its end, counting from the call before; empty when there is trouble.
+    busy_s, waited_s
+        Seconds spent on stepping islands, and on waiting for packets.
     trouble
-        The commonest reason why its members are invalid, when all are; otherwise empty.
+        Why it broke off; empty when it did not.
+    stopped
+        Whether it broke off because it was asked to.
     """
 
-    island: str
     epoch: int
-    generation: int
-    evaluations: int
-    best: float | None
-    mean: float | None
-    invalid: int
-    migrants: int
-    champion: tuple[float, int] | None
+    summaries: tuple[IslandSummary, ...]
+    busy_s: float
+    waited_s: float
     trouble: str = ""
+    stopped: bool = False
+
+
+class Finished(NamedTuple):
+    """What a host left behind: the paths of its forms, and how its islands stood at the end of the log."""
+
+    forms: tuple[str, ...]
+    summaries: tuple[IslandSummary, ...]
 
 
 class StoppedError(Exception):
     """The run was asked to stop: the epoch in hand is abandoned, the states are those of its beginning."""
+
+
+class StarvedError(Exception):
+    """The host waited in vain for packets of other hosts."""
+
+
+def _nowhere(host: int, packets: Box) -> bool:
+    raise RuntimeError(f"{len(packets)} packets for host {host}, which this host is not connected to")
 
 
 @final
@@ -122,8 +160,12 @@ class Host:
     ----------
     plan
         What to do.
-    clock, calendar
-        For the log's clock columns alone.
+    clock
+        For the log's clock columns, for how long packets are gathered, and for what a call says of its time.
+    calendar
+        For the log's events.
+    post
+        Hands packets to other hosts.
     """
 
     def __init__(
@@ -131,14 +173,25 @@ class Host:
         plan: HostPlan,
         clock: Clock = time.perf_counter,
         calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
+        post: Post = _nowhere,
     ) -> None:
         self._plan = plan
         self._clock = clock
+        self._post = post
         self._stop = threading.Event()
-        self._islands: tuple[Island[Any], ...] = ()
+        self._bell = threading.Condition()
+        self._mail: deque[Box] = deque()
+        self._islands: dict[int, Island[Any]] = {}
         self._states: dict[int, State[Any]] = {}
-        self._champions: dict[int, tuple[float, int]] = {}
-        self._kept: Box = ()
+        self._history: dict[int, dict[int, State[Any]]] = {}
+        self._gathered: dict[int, list[Packet]] = {}
+        self._posted = 0.0
+        self._flushed = self._told = -1
+        self._broken: Advanced | None = None
+        self._busy = self._waited = 0.0
+        self._routes = Routes(plan.edges, plan.redrawn, plan.seed)
+        self._agenda = Agenda((), Present())
+        self._tally = Tally(plan.islands)
         self._log = LogWriter(Path(plan.folder) / "log", plan.run, plan.islands, calendar)
 
     def ready(self) -> int:
@@ -150,150 +203,223 @@ class Host:
             When an island's settings do not hold together here: a file or plug-in that this machine lacks.
         """
         pin_threads()
-        routes = Routes(self._plan.edges, (), self._plan.seed)
+        plan = self._plan
         # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
         # need no ten thousand environments.
-        groups = {spec.group: spec for spec in self._plan.islands}
+        groups = {spec.group: spec for spec in plan.islands}
         biology = {
             name: resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock) for name, spec in groups.items()
         }
-        self._islands = tuple(
-            Island(spec, biology[spec.group], self._plan.seed, routes, self._clock, self._pulse)
-            for spec in self._plan.islands
-        )
-        return self._plan.host
+        strangers = _strangers(plan)
+        self._islands = {
+            spec.number: Island(
+                spec,
+                biology[spec.group],
+                plan.seed,
+                self._routes,
+                self._clock,
+                self._pulse,
+                adapters_into(spec, strangers.get(spec.number, ()), spec.source),
+            )
+            for spec in plan.islands
+        }
+        self._agenda = Agenda(self._islands, self._rule())
+        return plan.host
+
+    def _rule(self) -> Rule:
+        if self._plan.schedule != "async":
+            return Complete(self._routes)
+        if self._plan.replay:
+            return Recorded(recorded_arrivals(Path(self._plan.replay), self._plan.islands))
+        return Present()
+
+    # -- what may be called from another thread ------------------------------------------------------------------
 
     def stop(self) -> None:
-        """Ask for the epoch in hand to be abandoned; may be called from another thread."""
+        """Ask for the epoch in hand to be abandoned."""
         self._stop.set()
+        with self._bell:
+            self._bell.notify_all()
 
-    def advance(self, epoch: int, *inboxes: Box) -> tuple[Any, ...]:
-        """Step every island through one epoch.
+    def deliver(self, packets: Box) -> None:
+        """Take packets from another host."""
+        self._mail.append(packets)
+        with self._bell:
+            self._bell.notify_all()
+
+    # -- stepping ------------------------------------------------------------------------------------------------
+
+    def advance(self, through: int, horizon: int, settled: int) -> Advanced:
+        """Step islands until all have finished an epoch.
 
         Parameters
         ----------
-        epoch
-            0 makes the first populations; then each epoch follows the one before.
-        inboxes
-            What the hosts sent at the end of the epoch before, in any order.
-
-        Returns
-        -------
-        The islands' summaries, then one box for each host of the run; the one for itself is empty.
-
-        Raises
-        ------
-        StoppedError
-            When it was asked to stop; nothing has changed then.
+        through
+            That epoch; 0 makes the first populations.
+        horizon
+            How far islands may go while others wait for packets, at least ``through``.
+        settled
+            The last epoch that all hosts have finished: the log is written up to it, and nobody will ask for states
+            before it.
         """
-        arrivals: dict[int, list[Packet]] = defaultdict(list)
-        for packet in (packet for box in (self._kept, *inboxes) for packet in box):
-            arrivals[packet.target].append(packet)
-        steps = [self._step(island, epoch, arrivals[island.spec.number]) for island in self._islands]
-        boxes: list[list[Packet]] = [[] for _ in range(self._plan.hosts)]
-        for island, step in zip(self._islands, steps, strict=True):
-            self._states[island.spec.number] = step.state
-            self._log.add(island.spec.number, epoch, step.records)
-            for packet in step.departures:
-                boxes[self._plan.placement[packet.target]].append(packet)
-        self._kept = tuple(boxes[self._plan.host])
-        boxes[self._plan.host] = []
-        if epoch % self._plan.flush_epochs == 0 and epoch > 0:
-            self._log.flush()
-        summaries = tuple(self._summary(i, s) for i, s in zip(self._islands, steps, strict=True))
-        return (summaries, *(tuple(box) for box in boxes))
+        self._busy = self._waited = 0.0
+        if self._broken is not None:
+            return self._broken
+        before = self._told
+        trouble, stopped = "", False
+        try:
+            self._settle(settled)
+            self._step_through(through, horizon)
+        except StoppedError:
+            trouble, stopped = "asked to stop", True
+        except (InputError, StarvedError) as error:
+            trouble = str(error)
+        except Exception as error:  # noqa: BLE001 - whatever an island raises ends the run with a message
+            trouble = f"{type(error).__name__}: {error}"
+        if trouble:
+            # What comes after it must not go on with half an epoch.
+            self._broken = Advanced(self._agenda.floor, (), 0.0, 0.0, trouble, stopped)
+            return self._broken._replace(busy_s=self._busy, waited_s=self._waited)
+        self._told = through
+        return Advanced(self._agenda.floor, self._tally.since(before, through), self._busy, self._waited)
 
-    def finish(self, write_forms: bool) -> tuple[str, ...]:
-        """Write what is left of the log and, if asked, the best forms; give the forms' paths."""
-        self._log.flush()
-        if not write_forms:
-            return ()
-        files: list[str] = []
-        folder = Path(self._plan.folder) / "forms"
-        folder.mkdir(parents=True, exist_ok=True)
-        for island in self._islands:
-            state = self._states.get(island.spec.number)
-            if state is not None:
-                files.extend(self._write_forms(island, state.deme, folder))
-        self._log.flush()
-        return tuple(files)
-
-    def _write_forms(self, island: Island[Any], deme: Sequence[Individual[Any]], folder: Path) -> list[str]:
-        files: list[str] = []
-        for rank, member in enumerate(best_forms(island, deme, self._plan.best_forms), start=1):
-            stem = folder / f"{island.spec.name}-best{rank}"
-            facts: dict[str, str | float | bool] = {
-                "run": self._plan.run,
-                "island": island.spec.name,
-                "id": str(member.id),
-                "fitness": member.fitness or 0.0,
-            }
-            try:
-                written = island.biology.write_forms(member.genotype, stem, (), facts)
-            except InputError as error:
-                detail = {"id": member.id, "detail": str(error)}
-                self._log.tell(island.spec.number, self._states[island.spec.number].epoch, "form", detail)
+    def _step_through(self, through: int, horizon: int) -> None:
+        while self._agenda.floor < through:
+            self._pulse()
+            self._collect()
+            turn = self._agenda.next(horizon)
+            if turn is None:
+                self._send()
+                self._wait()
                 continue
-            files.extend(str(path) for path in written)
-        return files
+            started = self._clock()
+            self._take_turn(*turn)
+            ended = self._clock()
+            self._busy += ended - started
+            if ended - self._posted > POST_S:
+                self._send()
+        self._send()
 
-    def _step(self, island: Island[Any], epoch: int, arrivals: Sequence[Packet]) -> Advance[Any]:
-        if epoch == 0:
-            return island.begin()
-        state = self._states[island.spec.number]
-        if state.epoch != epoch - 1:
-            text = f"island {island.spec.name} stands at epoch {state.epoch}, asked for epoch {epoch}"
-            raise RuntimeError(text)
-        return island.advance(state, self._plan.generations, arrivals)
+    def _take_turn(self, number: int, epoch: int) -> None:
+        """Step one island and pass on what it sends."""
+        island, packets = self._islands[number], self._agenda.take(number)
+        step: Advance[Any]
+        step = island.begin() if epoch == 0 else island.advance(self._states[number], self._plan.generations, packets)
+        self._agenda.done(number)
+        self._states[number] = step.state
+        self._history.setdefault(epoch, {})[number] = step.state
+        self._tally.add(number, step)
+        self._log.add(number, epoch, step.records)
+        if self._plan.schedule == "async" and epoch > 0:
+            edges = self._routes.incoming(number, epoch - 1)
+            self._log.tell(number, epoch, "arrivals", arrivals_detail(packets, edges, epoch - 1))
+        if epoch == self._plan.epochs:
+            return
+        placement, here = self._plan.placement, self._plan.host
+        for packet in step.departures:
+            host = placement[packet.target]
+            if host == here:
+                self._agenda.put(packet)
+            else:
+                self._gathered.setdefault(host, []).append(packet)
 
-    def _summary(self, island: Island[Any], step: Advance[Any]) -> IslandSummary:
-        last, number = step.records.generations[-1], island.spec.number
-        contenders = [(row.fitness, row.id) for row in step.records.born if row.fitness is not None]
-        if number in self._champions:
-            contenders.append(self._champions[number])
-        if contenders:
-            self._champions[number] = min(contenders, key=lambda one: (-one[0], one[1]))
-        return IslandSummary(
-            island=island.spec.name,
-            epoch=step.state.epoch,
-            generation=step.state.generation,
-            evaluations=sum(row.evaluations for row in step.records.generations),
-            best=last.best,
-            mean=last.mean,
-            invalid=last.invalid,
-            migrants=sum(crossing.accepted for crossing in step.records.crossings),
-            champion=self._champions.get(number),
-            trouble=most_frequent_error(step.state.deme) if last.best is None else "",
-        )
+    def _collect(self) -> None:
+        while self._mail:
+            for packet in self._mail.popleft():
+                self._agenda.put(packet)
+
+    def _send(self) -> None:
+        """Post what was gathered; what cannot go yet stays."""
+        self._posted = self._clock()
+        for host, packets in self._gathered.items():
+            if packets and self._post(host, tuple(packets)):
+                packets.clear()
+
+    def _wait(self) -> None:
+        """Wait for packets, or for the wish to stop."""
+        started = self._clock()
+        with self._bell:
+            heard = self._bell.wait_for(lambda: self._mail or self._stop.is_set(), self._plan.patience)
+        self._waited += self._clock() - started
+        if not heard:
+            raise StarvedError(self._lacking())
+
+    def _lacking(self) -> str:
+        """Say what the host has waited for in vain."""
+        lacking = self._agenda.awaited()
+        if lacking is None:
+            return f"no island of host {self._plan.host} can step, and none waits for packets"
+        number, epoch, marks = lacking
+        sources = [
+            f"island {source} of host {self._plan.placement[source]} (epoch {sent})"
+            for _, source, sent in marks[:MOST_NAMED]
+        ]
+        more = f" and {len(marks) - MOST_NAMED} more" if len(marks) > MOST_NAMED else ""
+        name = self._islands[number].spec.name
+        waited = f"waited {self._plan.patience:g} s to begin epoch {epoch} of {name}"
+        return f"{waited} without news from {', '.join(sources)}{more}"
 
     def _pulse(self) -> None:
         if self._stop.is_set():
             raise StoppedError
 
+    # -- writing -------------------------------------------------------------------------------------------------
 
-def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int) -> list[Individual[Any]]:
-    """Give the best members of different forms, best first; fewer where the deme has no more forms.
+    def _settle(self, settled: int) -> None:
+        """Write the log as far as all hosts have come, and forget what nobody asks for any more."""
+        every = self._plan.flush_epochs
+        for epoch in range((max(self._flushed, 0) // every + 1) * every, settled + 1, every):
+            self._log.flush(epoch)
+            self._flushed = epoch
+        for epoch in [epoch for epoch in self._history if epoch < settled]:
+            del self._history[epoch]
+        self._tally.forget(settled)
 
-    Members whose scores are equal to the last bit count as one form, since different genomes may grow into one: the
-    one of the lowest id stands for it. Of a kind without scores genotypes are compared.
-    """
-    forms: dict[object, Individual[Any]] = {}
-    for member in ranked(deme):
-        if len(forms) == count or member.fitness is None:
-            break
-        forms.setdefault(member.scores or island.biology.encode(member.genotype), member)
-    return list(forms.values())
+    def finish(self, forms: bool, settled: int, through: int) -> Finished:
+        """Write what is left of the log up to an epoch and drop the rest; write the best forms, if asked.
+
+        Parameters
+        ----------
+        forms
+            Whether to write forms.
+        settled
+            The last epoch whose summaries were reported.
+        through
+            The epoch at which the log is to end; all islands have finished it.
+        """
+        self._log.flush(through)
+        self._log.drop()
+        states = self._history.get(through, {})
+        files: list[str] = []
+        if forms and states:
+            folder = Path(self._plan.folder) / "forms"
+            folder.mkdir(parents=True, exist_ok=True)
+            for number, island in self._islands.items():
+                files.extend(self._write_forms(island, states[number], folder))
+            self._log.flush()
+        return Finished(tuple(files), self._tally.since(settled, through) if through > settled else ())
+
+    def _write_forms(self, island: Island[Any], state: State[Any], folder: Path) -> Sequence[str]:
+        def failed(detail: dict[str, Any]) -> None:
+            self._log.tell(island.spec.number, state.epoch, "form", detail)
+
+        best = best_forms(island, state.deme, self._plan.best_forms)
+        return write_forms(island, best, folder, self._plan.run, failed)
 
 
-def most_frequent_error(deme: Sequence[Individual[Any]]) -> str:
-    """Give an error that is typical of a deme: of the commonest reason the commonest text; empty without any."""
-    errors = [member.error for member in deme if member.error]
-    if not errors:
-        return ""
-    reasons = [error.partition(":")[0] for error in errors]
-    commonest = Counter(reasons).most_common(1)[0][0]
-    texts = [error for error, reason in zip(errors, reasons, strict=True) if reason == commonest]
-    return one_line(Counter(texts).most_common(1)[0][0], MOST_REASON)
+def _strangers(plan: HostPlan) -> Mapping[int, Sequence[tuple[str, IslandSpec]]]:
+    """Give, for each island that adapters lead to, their names and the islands that they translate from."""
+    known = {spec.number: spec for spec in (*plan.islands, *plan.foreign)}
+    pairs = [(edge.target, edge.adapter, edge.source) for edge in plan.edges if edge.adapter]
+    for channel in plan.redrawn:
+        members = [number for number, _ in channel.members if channel.adapter]
+        pairs.extend((target, channel.adapter, source) for target in members for source in members if source != target)
+    found: dict[int, list[tuple[str, IslandSpec]]] = defaultdict(list)
+    here = {spec.number for spec in plan.islands}
+    for target, adapter, source in dict.fromkeys(pairs):
+        if target in here:
+            found[target].append((adapter, known[source]))
+    return found
 
 
 def pin_threads() -> None:

@@ -25,6 +25,10 @@ Calendar = Callable[[], datetime]
 """Gives the time of day in UTC; passed in."""
 
 
+ALL: Final = 2**63 - 1
+"""Later than any epoch."""
+
+
 class Event(NamedTuple):
     """A row of the events table; ``island`` and ``epoch`` are ``None`` for what concerns the whole run."""
 
@@ -62,7 +66,7 @@ class LogWriter:
 
     def add(self, island: int, epoch: int, records: Records) -> None:
         """Take the records of one island in one epoch."""
-        self._buffer.append((island, epoch, records))
+        self._buffer.append((epoch, island, records))
         if records.notes:
             now = self._calendar()
             name = self._islands[island].name
@@ -72,29 +76,40 @@ class LogWriter:
         """Take an event of one island."""
         self._events.append(Event(self._islands[island].name, self._calendar(), epoch, kind, detail))
 
-    def flush(self) -> list[Path]:
+    def flush(self, through: int = ALL) -> list[Path]:
         """Write what is buffered, one file for each table that has rows; give the files.
 
         The first time each table gets its file, with rows or without, so that a plain glob finds every table. Each
         epoch's records come in one piece; only events may be told of an epoch that is written already, and then they
         stand in a file of their own.
+
+        Parameters
+        ----------
+        through
+            The last epoch to write; what comes after it stays in the buffer.
         """
-        if not self._buffer and not self._events:
+        parts = sorted((part for part in self._buffer if part[0] <= through), key=lambda part: part[:2])
+        events = [event for event in self._events if (event.epoch or 0) <= through]
+        if not parts and not events:
             return []
-        epochs = [epoch for _, epoch, _ in self._buffer]
-        if not epochs:
-            epochs = [event.epoch or 0 for event in self._events]
+        epochs = [epoch for epoch, _, _ in parts] or [event.epoch or 0 for event in events]
         span = f"e{min(epochs):06d}-{max(epochs):06d}-i{min(self._islands):05d}-{max(self._islands):05d}"
-        if not self._buffer:
+        if not parts:
             span = f"{span}-after"
-        tables = {name: self._table(name) for name in TABLES if name != "events"}
-        tables["events"] = events_table(self._run, self._events)
+        tables = {name: self._table(name, parts) for name in TABLES if name != "events"}
+        tables["events"] = events_table(self._run, events)
         wanted = {name: table for name, table in tables.items() if table.num_rows or not self._begun}
         files = [write(self._folder, name, span, table) for name, table in wanted.items()]
-        self._buffer, self._events, self._begun = [], [], True
+        self._buffer = [part for part in self._buffer if part[0] > through]
+        self._events = [event for event in self._events if (event.epoch or 0) > through]
+        self._begun = True
         return files
 
-    def _table(self, name: str) -> pa.Table:
+    def drop(self) -> None:
+        """Forget what is buffered."""
+        self._buffer, self._events = [], []
+
+    def _table(self, name: str, parts: Sequence[tuple[int, int, Records]]) -> pa.Table:
         make = {
             "individuals": _individuals,
             "evaluations": _evaluations,
@@ -104,9 +119,8 @@ class LogWriter:
         attribute = {
             "individuals": "born", "evaluations": "rescored", "generations": "generations", "migrations": "crossings"
         }[name]  # fmt: skip
-        parts = sorted(self._buffer, key=lambda part: (part[1], part[0]))
         rows = list(chain.from_iterable(getattr(records, attribute) for _, _, records in parts))
-        specs = [self._islands[island] for island, _, records in parts for _ in getattr(records, attribute)]
+        specs = [self._islands[island] for _, island, records in parts for _ in getattr(records, attribute)]
         return make(self._run, rows, specs)
 
 

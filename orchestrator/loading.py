@@ -110,7 +110,6 @@ def _resolved(data: dict[str, Any], source: str) -> Experiment:
         if isinstance(islands, Mapping):
             data["islands"] = {name: _merged(defaults, island) for name, island in islands.items()}
     experiment = validated(Experiment, data, source)
-    _refuse_unbuilt(experiment, source)
     islands = {name: _with_kind(name, island, source) for name, island in experiment.islands.items()}
     channels = [
         completed(channel, f"{source}: channels.{number}", experiment.epoch)
@@ -130,12 +129,6 @@ def _merged(defaults: Mapping[str, Any], island: object) -> object:
         if isinstance(value, Mapping) and isinstance(island.get(key), Mapping):
             merged[key] = {**value, **island[key]}
     return merged
-
-
-def _refuse_unbuilt(experiment: Experiment, source: str) -> None:
-    if experiment.schedule != "barrier":
-        got = f"'{experiment.schedule}', which comes with a later version"
-        raise InputError(f"{source}: schedule", "'barrier'", got, "set schedule: barrier")
 
 
 def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings:

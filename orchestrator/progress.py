@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Protocol, TextIO, final
 
-from islands.host import IslandSummary
+from islands.tally import IslandSummary
 from orchestrator.experiment import Experiment
 from orchestrator.plan import Plan
 

@@ -11,10 +11,11 @@ from pathlib import Path
 from typing import Any, Final
 
 from genome.errors import InputError
-from islands.host import IslandSummary
+from islands.host import HostPlan
 from islands.kinds.registry import resolve_kind
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
+from islands.tally import IslandSummary
 from orchestrator import archipelago as machine
 from orchestrator.backends.protocol import Backend, Deadlines, RunFailedError
 from orchestrator.folder import RunFolder, choose_path, create, remove
@@ -44,6 +45,8 @@ class Outcome:
         The best individual bred until then, still a member or not: island, id, fitness; ``None`` when all were invalid.
     wall_s, startup_s
         Wall time from start to end, and of it the time until all hosts stood.
+    busy
+        The share of the hosts' time, from then until the last epoch, that they spent on stepping islands.
     """
 
     folder: Path
@@ -55,6 +58,7 @@ class Outcome:
     best: dict[str, Any] | None
     wall_s: float
     startup_s: float
+    busy: float
 
 
 def seconds_of(plan: Plan) -> dict[str, float]:
@@ -117,7 +121,14 @@ def make_backend(loaded: Loaded, address: str | None) -> Backend:
     return RayBackend(experiment.hosts, islands, address)
 
 
-def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str | None, progress: Progress) -> Outcome:
+def run_experiment(
+    loaded: Loaded,
+    backend: Backend,
+    runs_dir: Path,
+    name: str | None,
+    progress: Progress,
+    replay: RunFolder | None = None,
+) -> Outcome:
     """Run an experiment.
 
     Parameters
@@ -132,6 +143,8 @@ def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str |
         The run's name, if one was asked for.
     progress
         Is told how it goes.
+    replay
+        The run that this one is to repeat, if any.
 
     Raises
     ------
@@ -151,7 +164,7 @@ def run_experiment(loaded: Loaded, backend: Backend, runs_dir: Path, name: str |
             folder = create(runs_dir, name, loaded, started, facts, explicit=explicit)
             drive: _Drive | None = None
             try:
-                drive = _Drive(folder, backend, hosts, seconds, progress, clock)
+                drive = _Drive(folder, backend, hosts, seconds, progress, clock, replay)
                 return drive.to_the_end(signals.stop)
             except BaseException as error:
                 signals.close()
@@ -201,6 +214,7 @@ class _Drive:
         seconds: dict[str, float],
         progress: Progress,
         clock: float,
+        replay: RunFolder | None,
     ) -> None:
         # The run goes by its own folder from here on, as a replay will.
         loaded = load_experiment(folder.experiment)
@@ -209,18 +223,19 @@ class _Drive:
         self.plan = make_plan(self.loaded)
         self.deadlines = _deadlines(self.loaded, self.plan, hosts, seconds)
         self.clock = clock
+        self.replay = replay
         self.stood: float | None = None
         self.latest: tuple[IslandSummary, ...] = ()
         self.evaluations = 0
+        self.stepped_s = 0.0
         self.written = 0
 
     def to_the_end(self, stop: threading.Event) -> Outcome:
         experiment = self.loaded.experiment
-        plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.path)
-        self.backend.begin(plans, self.deadlines)
+        self.backend.begin(self._host_plans(), self.deadlines)
         self._tell("start", {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed})
         self.progress.begin(self.plan, experiment, self.folder.path)
-        state = machine.Archipelago(self.hosts, experiment.length)
+        state = machine.Archipelago(self.hosts, experiment.length, experiment.schedule)
         events: deque[machine.Event] = deque([machine.Begun()])
         told = False
         while True:
@@ -240,7 +255,20 @@ class _Drive:
                 else:
                     if self.stood is None and isinstance(instruction, machine.Advance):
                         self.stood = time.perf_counter()
+                    if isinstance(instruction, machine.Finish) and not self.stepped_s:
+                        self.stepped_s = time.perf_counter() - (self.stood or time.perf_counter())
                     self.backend.perform(instruction)
+
+    def _host_plans(self) -> tuple[HostPlan, ...]:
+        experiment = self.loaded.experiment
+        changes: dict[str, Any] = {
+            "epochs": experiment.length,
+            "schedule": experiment.schedule,
+            "replay": "" if self.replay is None else str(self.replay.log),
+            "patience": self.deadlines.epoch,
+        }
+        plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.path)
+        return tuple(replace(plan, **changes) for plan in plans)
 
     def facts(self) -> dict[str, Any]:
         """Give how far the run has come: keys of the manifest and of the outcome."""
@@ -250,10 +278,11 @@ class _Drive:
             "generations": max((row.generation for row in self.latest), default=0),
             "evaluations": self.evaluations,
             "best": best_row(self.latest),
+            "busy": round(self.backend.ledger.busy_s / max(self.stepped_s * self.hosts, 1e-9), 4),
         }
 
     def _report(self, epoch: int) -> None:
-        self.latest = self.backend.summaries(epoch)
+        self.latest = self.backend.ledger.summaries(epoch)
         self.evaluations += sum(row.evaluations for row in self.latest)
         self.progress.epoch(epoch, self.latest)
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, final
 
-from islands.host import HostPlan, IslandSummary
-from orchestrator.archipelago import Advance, AskStop, Event, Finish, Spawn
+from islands.host import Advanced, HostPlan
+from islands.tally import IslandSummary
+from orchestrator.archipelago import Advance, AskStop, EpochAbandoned, EpochDone, Event, Finish, HostFailed, Spawn
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +48,9 @@ class Backend(Protocol):
         """Give the next event; ``None`` when there is none within that time."""
         ...
 
-    def summaries(self, epoch: int) -> tuple[IslandSummary, ...]:
-        """Give the islands' summaries of an epoch that all hosts have finished, and forget earlier ones."""
+    @property
+    def ledger(self) -> Ledger:
+        """Give what the hosts told of their islands."""
         ...
 
     def interrupt(self) -> None:
@@ -58,3 +60,38 @@ class Backend(Protocol):
     def close(self) -> None:
         """Let go of everything; may be called at any time, more than once."""
         ...
+
+
+@final
+class Ledger:
+    """What hosts told of their islands, until it is reported.
+
+    Attributes
+    ----------
+    busy_s
+        Seconds that all hosts together have spent on stepping islands.
+    """
+
+    def __init__(self) -> None:
+        self.busy_s = 0.0
+        self._summaries: dict[tuple[int, int], tuple[IslandSummary, ...]] = {}
+
+    def advanced(self, call: Advance, found: Advanced) -> Event:
+        """Take a host's answer to a call and give the event that it is."""
+        self.busy_s += found.busy_s
+        if found.stopped:
+            return EpochAbandoned(call.host, found.epoch)
+        if found.trouble:
+            return HostFailed(call.host, found.trouble, alive=True, epoch=found.epoch)
+        self.note(call.host, call.through, found.summaries)
+        return EpochDone(call.host, call.through, found.busy_s + found.waited_s)
+
+    def note(self, host: int, epoch: int, summaries: tuple[IslandSummary, ...]) -> None:
+        """Take the summaries of a host's islands at an epoch's end."""
+        self._summaries[host, epoch] = summaries
+
+    def summaries(self, epoch: int) -> tuple[IslandSummary, ...]:
+        """Give the summaries of an epoch that all hosts have finished, in the order of islands; forget earlier ones."""
+        found = tuple(row for key in sorted(self._summaries) if key[1] == epoch for row in self._summaries[key])
+        self._summaries = {key: rows for key, rows in self._summaries.items() if key[1] > epoch}
+        return found

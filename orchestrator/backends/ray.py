@@ -1,6 +1,6 @@
 """The backend on Ray: each host an actor, on a local Ray that comes and goes with the run, or on a cluster.
 
-The driver holds references to boxes and hands them on; it never looks into them.
+Hosts know each other's actors and post to each other directly: the driver sees no packet.
 """
 
 from __future__ import annotations
@@ -9,26 +9,15 @@ import logging
 import math
 import time
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
 from genome.errors import InputError
-from islands.host import HostPlan, IslandSummary, StoppedError
-from orchestrator.archipelago import (
-    Advance,
-    AskStop,
-    EpochAbandoned,
-    EpochDone,
-    Event,
-    Finish,
-    HostFailed,
-    HostFinished,
-    HostReady,
-    Spawn,
-)
+from islands.host import HostPlan
+from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
 from orchestrator.backends.apart import sessions_of_their_own
 from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
-from orchestrator.backends.protocol import Deadlines, RunFailedError
+from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError
 
 OBJECT_STORE_BYTES: Final = 100 * 2**20
 
@@ -65,9 +54,15 @@ class RayBackend:
         self._deadlines = Deadlines(0, 0, 0)
         self._actors: dict[int, Any] = {}
         self._pending: dict[Any, _Pending] = {}
-        self._boxes: dict[tuple[int, int], list[Any]] = {}
-        self._summaries: dict[tuple[int, int], tuple[IslandSummary, ...]] = {}
+        self._told: dict[int, int] = {}
+        self._connected = False
         self._events: deque[Event] = deque()
+        self._ledger = Ledger()
+
+    @property
+    def ledger(self) -> Ledger:
+        """Give what the hosts told of their islands."""
+        return self._ledger
 
     def open(self) -> int:
         """Start a local Ray or connect, make sure that the hosts can be placed, and give their number.
@@ -130,21 +125,40 @@ class RayBackend:
                 share = math.floor(min(1.0, self._cpus / self._count) * 1e4) / 1e4
                 self._actors[host] = host_actor(share).remote(self._plans[host])
                 self._expect(self._actors[host].ready.remote(), instruction, self._deadlines.start)
-            case Advance(host, epoch, inboxes):
-                boxes = [self._boxes[source, epoch - 1][host] for source in inboxes]
-                step = self._actors[host].advance.options(num_returns=1 + self._count)
-                summary, *out = step.remote(epoch, *boxes)
-                self._boxes[host, epoch] = out
-                self._expect(summary, instruction, self._deadlines.epoch)
+            case Advance(host, through, horizon, settled):
+                self._connect()
+                call = self._actors[host].advance.remote(through, horizon, settled)
+                self._expect(call, instruction, self._patience(host, through))
             case AskStop(host):
                 from islands.actor import CONTROL
 
                 self._actors[host].stop.options(concurrency_group=CONTROL).remote()
-            case Finish(host, forms):
-                self._expect(self._actors[host].finish.remote(forms), instruction, self._deadlines.finish)
+            case Finish(host, forms, settled, through):
+                call = self._actors[host].finish.remote(forms, settled, through)
+                self._expect(call, instruction, self._deadlines.finish)
+
+    def _connect(self) -> None:
+        """Let every host know the others, before the first of them steps."""
+        if self._connected:
+            return
+        self._connected = True
+        for host, actor in self._actors.items():
+            actor.connect.remote({other: peer for other, peer in self._actors.items() if other != host})
+
+    def _patience(self, host: int, through: int) -> float:
+        """Give how long a call may take.
+
+        Calls of several epochs are made where these took a moment together. Hosts wait for each other only for as long
+        as one epoch may take, and then say for whom: one that waits is given that time besides.
+        """
+        epochs = through - self._told.get(host, -1)
+        self._told[host] = through
+        return self._deadlines.epoch * (min(epochs, 2) + (self._plans[host].schedule != "barrier"))
 
     def _expect(self, reference: Any, what: Spawn | Advance | Finish, seconds: float) -> None:  # noqa: ANN401
-        self._pending[reference] = _Pending(what, time.monotonic() + seconds, seconds)
+        # A host's calls come one after the other.
+        begins = [pending.deadline for pending in self._pending.values() if pending.what.host == what.host]
+        self._pending[reference] = _Pending(what, max([time.monotonic(), *begins]) + seconds, seconds)
 
     def wait(self, seconds: float) -> Event | None:
         """Give the next answer, death, or passed deadline."""
@@ -155,7 +169,9 @@ class RayBackend:
         if not self._pending:
             time.sleep(seconds)
             return None
-        done, _ = ray.wait(list(self._pending), num_returns=1, timeout=seconds)
+        # Of each host the oldest call alone: answers to two calls may come in any order.
+        oldest = {pending.what.host: reference for reference, pending in reversed(self._pending.items())}
+        done, _ = ray.wait(list(oldest.values()), num_returns=1, timeout=seconds)
         for reference in done:
             self._events.append(self._answer(reference, self._pending.pop(reference)))
         if not done:
@@ -176,8 +192,6 @@ class RayBackend:
             value = ray.get(reference, timeout=30)
         except ray.exceptions.RayTaskError as error:
             cause = error.cause
-            if isinstance(cause, StoppedError) and isinstance(pending.what, Advance):
-                return EpochAbandoned(host, pending.what.epoch)
             text = str(cause) if isinstance(cause, InputError) else f"{type(cause).__name__}: {cause}"
             return HostFailed(host, f"host {host} could not {_doing(pending.what)}: {text}", alive=True)
         except ray.exceptions.RayActorError as error:
@@ -188,18 +202,14 @@ class RayBackend:
         match pending.what:
             case Spawn():
                 return HostReady(host)
-            case Advance(_, epoch):
-                self._summaries[host, epoch] = value
-                return EpochDone(host, epoch)
+            case Advance():
+                event = self._ledger.advanced(pending.what, value)
+                if isinstance(event, HostFailed):
+                    event = replace(event, reason=f"host {host} could not {_doing(pending.what)}: {event.reason}")
+                return event
             case Finish():
+                self._ledger.note(host, pending.what.through, value.summaries)
                 return HostFinished(host)
-
-    def summaries(self, epoch: int) -> tuple[IslandSummary, ...]:
-        """Give the summaries in the order of islands."""
-        found = tuple(row for plan in self._plans for row in self._summaries[plan.host, epoch])
-        self._summaries = {key: rows for key, rows in self._summaries.items() if key[1] >= epoch}
-        self._boxes = {key: boxes for key, boxes in self._boxes.items() if key[1] >= epoch}
-        return found
 
     def interrupt(self) -> None:
         """Nothing: the loop sees the wish to stop within its next wait."""
@@ -211,7 +221,7 @@ class RayBackend:
         self._opened = False
         import ray
 
-        self._pending, self._boxes, self._actors = {}, {}, {}
+        self._pending, self._actors = {}, {}
         ray.shutdown()
 
 
@@ -219,8 +229,8 @@ def _doing(what: Spawn | Advance | Finish) -> str:
     match what:
         case Spawn():
             return "start"
-        case Advance(_, epoch):
-            return f"finish epoch {epoch}"
+        case Advance(_, through):
+            return f"finish epoch {through}"
         case Finish():
             return "write its log"
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from experiments import bits, write
-from islands.host import IslandSummary
+from islands.tally import IslandSummary
 from orchestrator.loading import load_experiment
 from orchestrator.plan import make_plan
 from orchestrator.progress import MOST_ROWS, Barren, LiveTable, PlainLines, clock_text, progress_on

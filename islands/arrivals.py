@@ -1,0 +1,55 @@
+"""What came to an island when, as the log of an ``async`` run tells it, and as a replay reads it again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from islands.migration.channel import Edge, Packet
+from islands.spec import IslandSpec
+
+Record = dict[tuple[int, int], list[tuple[int, int, int]]]
+"""For an island's number and an epoch, the packets that it took in: channel, source, epoch sent."""
+
+
+def arrivals_detail(packets: Sequence[Packet], edges: Iterable[Edge], before: int) -> dict[str, Any]:
+    """Give the detail of an ``arrivals`` event.
+
+    Parameters
+    ----------
+    packets
+        What the island takes in.
+    edges
+        Those on which something could have come.
+    before
+        The last epoch that the island has finished.
+
+    Returns
+    -------
+    Under ``packets`` channel, source and epoch of each; under ``without`` the names of the channels that carried at the
+    end of the epoch before, and of which nothing came.
+    """
+    came = {packet.channel for packet in packets}
+    silent = {edge.channel.name: None for edge in edges if edge.channel.number not in came}
+    carried = {edge.channel.name for edge in edges if edge.channel.carries(before)}
+    return {
+        "packets": [(packet.channel, packet.source, packet.epoch) for packet in packets],
+        "without": [name for name in silent if name in carried],
+    }
+
+
+def recorded_arrivals(log: Path, islands: Iterable[IslandSpec]) -> Record:
+    """Read the ``arrivals`` events of some islands from a run's ``log`` folder."""
+    import pyarrow.parquet as pq
+
+    numbers = {spec.name: spec.number for spec in islands}
+    record: Record = {}
+    for path in sorted((log / "events").glob("*.parquet")):
+        table = pq.read_table(path, columns=["island", "epoch", "kind", "detail"], filters=[("kind", "=", "arrivals")])
+        for row in table.to_pylist():
+            if row["island"] in numbers:
+                marks = [(channel, source, epoch) for channel, source, epoch in json.loads(row["detail"])["packets"]]
+                record[numbers[row["island"]], row["epoch"]] = marks
+    return record

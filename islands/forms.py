@@ -1,0 +1,66 @@
+"""The forms that are written at a run's end: of each island the best ones that differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from genome.errors import InputError
+from islands.individual import Individual
+from islands.island import Island
+from islands.selection import ranked
+
+
+def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int) -> list[Individual[Any]]:
+    """Give the best members of different forms, best first; fewer where the deme has no more forms.
+
+    Members whose scores are equal to the last bit count as one form, since different genomes may grow into one: the
+    one of the lowest id stands for it. Of a kind without scores genotypes are compared.
+    """
+    forms: dict[object, Individual[Any]] = {}
+    for member in ranked(deme):
+        if len(forms) == count or member.fitness is None:
+            break
+        forms.setdefault(member.scores or island.biology.encode(member.genotype), member)
+    return list(forms.values())
+
+
+def write_forms(
+    island: Island[Any],
+    members: Sequence[Individual[Any]],
+    folder: Path,
+    run: str,
+    failed: Callable[[dict[str, Any]], None],
+) -> list[str]:
+    """Write members' forms as ``ISLAND-best1``, ``ISLAND-best2``, ...; give the files.
+
+    Parameters
+    ----------
+    island
+        Where they live.
+    members
+        Best first.
+    folder
+        Where the files go; it exists.
+    run
+        The run's name, for the files' own facts.
+    failed
+        Is told of each form that could not be written.
+    """
+    files: list[str] = []
+    for rank, member in enumerate(members, start=1):
+        stem = folder / f"{island.spec.name}-best{rank}"
+        facts: dict[str, str | float | bool] = {
+            "run": run,
+            "island": island.spec.name,
+            "id": str(member.id),
+            "fitness": member.fitness or 0.0,
+        }
+        try:
+            written = island.biology.write_forms(member.genotype, stem, (), facts)
+        except InputError as error:
+            failed({"id": member.id, "detail": str(error)})
+            continue
+        files.extend(str(path) for path in written)
+    return files
