@@ -18,7 +18,7 @@ ISLANDS = """
                sum(wall_ms) as wall_ms
         from generations group by island
     ), joined as (
-        select island, count(*) as migrants from migrations where accepted group by island
+        select island, count(*) as migrants from migrations where accepted and kind = 'migrants' group by island
     ), first_bred as (
         select island, min(id) as first_id from individuals group by island
     )

@@ -18,6 +18,7 @@ from orchestrator.cli import main
 from orchestrator.folder import open_run
 from orchestrator.query import as_rows, ask
 from orchestrator.regrow import Nursery, by_id, same
+from orchestrator.standing import standing
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -58,6 +59,12 @@ def test_counts_hold_per_edge_and_epoch_too(folder) -> None:
     each = {"migrants-0": 2, "partners-1": 2, "partners-2": 1, "components-3": 3, "surroundings-4": 1, "migrants-5": 3}
     for (channel, *_), count in Counter(rows).items():
         assert count == each.get(channel, 2)
+
+
+def test_the_standing_counts_migrants_alone(folder) -> None:
+    told = {row["island"]: row["migrants"] for row in standing(folder)["islands"]}
+    sql = "select target, count(*) from migrations where channel like 'migrants-%' and accepted group by 1"
+    assert {island: count for island, count in told.items() if count} == dict(ask(folder.log, sql).rows)
 
 
 def everyone(folder) -> list[int]:
