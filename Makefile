@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 RUN_READY := $(VENV)/.ready-run
 TEST_READY := $(VENV)/.ready-test
 
-.PHONY: run test lint bench lock clean help
+.PHONY: run test lint bench peers lock clean help
 
 help:            ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 18
@@ -27,11 +27,15 @@ lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
 bench: $(TEST_READY)  ## benchmarks, as ratios against peers
 	@$(BIN)/python -m benchmarks
 
+peers:           ## an environment of its own for the engines that benchmarks compare with
+	@test -x .venv-peers/bin/python || PYTHON="$(PYTHON)" sh scripts/venv.sh .venv-peers
+	@.venv-peers/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements-peers.lock
+
 lock: $(TEST_READY)  ## write the lock files anew
 	@sh scripts/lock.sh
 
 clean:           ## remove the environment and what tools left
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist
+	rm -rf $(VENV) .venv-peers .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache build dist
 
 $(BIN)/python:
 	@PYTHON="$(PYTHON)" sh scripts/venv.sh $(VENV)
