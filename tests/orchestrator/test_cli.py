@@ -210,7 +210,7 @@ def test_replay_gives_the_same_and_exits_with_one_where_it_does_not(done, tmp_pa
     forged = tmp_path / "forged"
     shutil.copytree(done, forged)
     text = (forged / "experiment.yaml").read_text(encoding="utf-8")
-    (forged / "experiment.yaml").write_text(text.replace("weight: 1.0", "weight: 2.0"), encoding="utf-8")
+    (forged / "experiment.yaml").write_text(text.replace("weight: 1.0\n", "weight: 2.0\n", 2), encoding="utf-8")
     result = atoll("replay", forged, "--id", best["id"], "--json")
     assert result.exit_code == 1
     assert last_json(result)["same"] is False

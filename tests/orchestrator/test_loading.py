@@ -124,7 +124,7 @@ MISTAKES = [
     ("epochs", "ten", "bits.yaml:4: epochs: expected a whole number, got 'ten'"),
     ("generations", 7, "expected either 'epochs' or 'generations', got both (epochs 4, generations 7)"),
     ("seeds", 7, "seeds: expected a known key, got 'seeds'; did you mean 'seed'?"),
-    ("schedule", "dataflow", "schedule: expected 'barrier', got 'dataflow', which comes with a later version"),
+    ("schedule", "sync", "schedule: expected 'barrier', 'dataflow' or 'async', got 'sync'"),
     ("hosts", 0, "hosts: expected 'auto' or a number of at least 1, got 0"),
     ("hosts", True, "hosts: expected 'auto' or a number of at least 1, got True"),
     ("islands", {}, "islands: expected"),
