@@ -101,6 +101,13 @@ def test_an_odd_number_of_offspring_is_bred_exactly() -> None:
     isle = island(population=11)
     step = isle.advance(isle.begin().state, 2, ())
     assert [row.evaluations for row in step.records.generations] == [9, 9]
+
+
+def test_what_an_odd_deme_draws_never_changes() -> None:
+    """The offspring that is dropped has drawn, too: the figures are a part of recorded runs."""
+    isle = island(population=11)
+    deme = isle.advance(isle.begin().state, 3, ()).state.deme
+    assert [member.fitness for member in deme] == [17, 16, 15, 15, 15, 17, 16, 16, 19, 14, 16]
     assert len({row.id for row in step.records.born}) == 18
 
 
