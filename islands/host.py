@@ -350,9 +350,11 @@ class Host:
         if lacking is None:
             return f"no island of host {self._plan.host} can step, and none waits for packets"
         number, epoch, marks = lacking
+        edges = self._routes.incoming(number, epoch - 1)
+        names = {(edge.channel.number, edge.source): edge.source_name for edge in edges}
         sources = [
-            f"island {source} of host {self._plan.placement[source]} (epoch {sent})"
-            for _, source, sent in marks[:MOST_NAMED]
+            f"island {names.get((channel, source), source)} of host {self._plan.placement[source]} (epoch {sent})"
+            for channel, source, sent in marks[:MOST_NAMED]
         ]
         more = f" and {len(marks) - MOST_NAMED} more" if len(marks) > MOST_NAMED else ""
         name = self._islands[number].spec.name
