@@ -78,5 +78,5 @@ def lonely(experiment: Experiment, source: str) -> tuple[str, ...]:
         members = members_of(channel, islands, f"{source}: channels.{number}")
         if len(members) == 1:
             alone = islands[members[0]][1]
-            notes.append(f"channels.{number}: a {channel.topology_name} of one island, {alone}, carries nothing")
+            notes.append(f"channels.{number}: topology {channel.topology_name} of one island, {alone}, carries nothing")
     return tuple(notes)

@@ -151,7 +151,7 @@ def test_one_island_is_no_mistake_but_noted(tmp_path, name) -> None:
     data = bits(islands={"north": {"count": 4}}, channels=[{"topology": name, "among": "north"}])
     path = write(tmp_path, data)
     loaded = load_experiment(path, ["islands.north.count=1"])
-    assert loaded.notes == (f"channels.0: a {name} of one island, north, carries nothing",)
+    assert loaded.notes == (f"channels.0: topology {name} of one island, north, carries nothing",)
     plan, _ = prepare(loaded)
     assert plan.edges == plan.redrawn == ()
     if name not in ("wheel", "watts_strogatz"):

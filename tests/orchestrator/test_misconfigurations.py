@@ -126,5 +126,5 @@ def test_one_island_is_noted_by_check(tmp_path) -> None:
     data = bits(islands={"north": {"count": 4}}, channels=[{"topology": "hypercube"}])
     result = CliRunner().invoke(main, ["check", str(write(tmp_path, data)), "--set", "islands.north.count=1"])
     assert result.exit_code == 0
-    assert "a hypercube of one island, north, carries nothing" in result.stderr
+    assert "topology hypercube of one island, north, carries nothing" in result.stderr
     assert not list(Path(tmp_path).glob("runs"))

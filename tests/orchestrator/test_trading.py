@@ -109,6 +109,16 @@ def test_every_pairing_replays(tmp_path, pairing) -> None:
         assert all(home_of(one) in (0, 1) for one in row[1::2])
 
 
+def test_packets_of_different_sizes_replay(tmp_path) -> None:
+    data = trading()
+    data["islands"]["skin"]["growth"] = {"fail_ending": "0"}  # forms of invalid members are not sent
+    data["channels"][6] |= {"count": 8, "every": 1}
+    found = open_run(str(run(tmp_path, data).folder))
+    sizes = ask(found.log, "select count(*) from migrations where channel = 'surroundings-6' group by epoch").rows
+    assert len(set(sizes)) > 1
+    assert all(replayed(found))
+
+
 def test_partners_that_a_killed_run_s_log_lacks_are_told(folder, tmp_path) -> None:
     import shutil
 
