@@ -176,7 +176,7 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     install(tmp_path, monkeypatch, "atoll.kinds", **names)
     assert {resolve_kind(name, "here").name for name in ("words", "blocks", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
-    with pytest.raises(InputError, match="known now: blocks, extra, surface, words"):
+    with pytest.raises(InputError, match="known now: bits, blocks, extra, surface, words"):
         resolve_kind("room", "here")
 
 
