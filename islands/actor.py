@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
-from typing import Any, Final, final
+from typing import Any, Final, NamedTuple, final
 
 from islands.host import Advanced, Box, Finished, Host, HostPlan
+from islands.mail import CAN_LISTEN, Letterbox, Line
 from islands.wire import opened, sealed
 
 CONTROL: Final = "control"
@@ -22,9 +23,16 @@ UNANSWERED: Final = 4
 """Letters to one host that may be on their way under ``async``, where nobody waits for them."""
 
 
+class Address(NamedTuple):
+    """Where a host can be reached: its machine, and the path of its letterbox; empty where it has none."""
+
+    machine: str
+    letterbox: str
+
+
 @final
 class HostActor:
-    """A host as an actor: its letters travel as calls from actor to actor.
+    """A host as an actor: letters go through sockets on one machine, and as calls of actors from one to another.
 
     Parameters
     ----------
@@ -34,19 +42,31 @@ class HostActor:
 
     def __init__(self, plan: HostPlan) -> None:
         sys.setswitchinterval(SWITCH_S)
+        self._plan = plan
         self._host = Host(plan, post=self._post)
+        self._letterbox = Letterbox(self.deliver) if CAN_LISTEN and plan.hosts > 1 else None
+        self._address = Address(_machine(), "" if self._letterbox is None else self._letterbox.address)
+        self._lines: dict[int, Line] = {}
         self._peers: dict[int, Any] = {}
         self._limited = plan.schedule == "async" and not plan.replay
         self._unanswered: dict[int, list[Any]] = {}
 
-    def ready(self) -> int:
-        """Make the islands; see :meth:`Host.ready`."""
-        return self._host.ready()
+    def ready(self) -> Address:
+        """Make the islands; see :meth:`Host.ready`. Gives the host's address."""
+        self._host.ready()
+        return self._address
 
-    def connect(self, peers: Mapping[int, Any]) -> None:
-        """Take the other hosts' actors."""
-        method = "deliver"
-        self._peers = {number: getattr(actor, method) for number, actor in peers.items()}
+    def connect(self, peers: Mapping[int, tuple[Any, Address]]) -> None:
+        """Take the other hosts' actors and addresses."""
+        near = 0
+        for number, (actor, address) in peers.items():
+            if self._letterbox and address.letterbox and address.machine == self._address.machine:
+                self._lines[number] = Line(address.letterbox, self._plan.patience)
+                near += 1
+            else:
+                self._peers[number] = actor.deliver
+        if self._letterbox is not None:
+            self._letterbox.expect(near)
 
     def advance(self, through: int, horizon: int, settled: int) -> Advanced:
         """Step islands; see :meth:`Host.advance`."""
@@ -65,9 +85,17 @@ class HostActor:
         self._host.deliver(opened(letter))
 
     def _post(self, host: int, packets: Box) -> bool:
-        if not self._limited:
-            self._peers[host].options(num_returns=0, concurrency_group=MAIL).remote(sealed(packets))
+        letter = sealed(packets)
+        if host in self._lines:
+            self._lines[host].send(letter)
             return True
+        if not self._limited:
+            self._peers[host].options(num_returns=0, concurrency_group=MAIL).remote(letter)
+            return True
+        return self._post_limited(host, letter)
+
+    def _post_limited(self, host: int, letter: bytes) -> bool:
+        """Post where nobody waits for letters, unless too many are on their way."""
         import ray
 
         waiting = self._unanswered.get(host, [])
@@ -76,9 +104,15 @@ class HostActor:
         if len(waiting) >= UNANSWERED:
             self._unanswered[host] = waiting
             return False
-        answer = self._peers[host].options(concurrency_group=MAIL).remote(sealed(packets))
+        answer = self._peers[host].options(concurrency_group=MAIL).remote(letter)
         self._unanswered[host] = [*waiting, answer]
         return True
+
+
+def _machine() -> str:
+    import ray
+
+    return str(ray.get_runtime_context().get_node_id())
 
 
 def host_actor(cpus: float) -> Any:  # noqa: ANN401 - Ray's actor classes have no useful type

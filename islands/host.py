@@ -203,6 +203,7 @@ class Host:
             When an island's settings do not hold together here: a file or plug-in that this machine lacks.
         """
         pin_threads()
+        self._log.warm()
         plan = self._plan
         # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
         # need no ten thousand environments.

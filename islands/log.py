@@ -105,6 +105,12 @@ class LogWriter:
         self._begun = True
         return files
 
+    def warm(self) -> None:
+        """Import what writing needs, so that no epoch has to wait for it."""
+        import pyarrow.parquet as pq
+
+        del pq
+
     def drop(self) -> None:
         """Forget what is buffered."""
         self._buffer, self._events = [], []

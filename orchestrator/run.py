@@ -45,8 +45,9 @@ class Outcome:
         The best individual bred until then, still a member or not: island, id, fitness; ``None`` when all were invalid.
     wall_s, startup_s
         Wall time from start to end, and of it the time until all hosts stood.
-    busy
-        The share of the hosts' time, from then until the last epoch, that they spent on stepping islands.
+    stepped_s, busy
+        Wall time from then until all hosts had come to their last epoch, and the share of it that they spent on
+        stepping islands.
     """
 
     folder: Path
@@ -58,6 +59,7 @@ class Outcome:
     best: dict[str, Any] | None
     wall_s: float
     startup_s: float
+    stepped_s: float
     busy: float
 
 
@@ -278,6 +280,7 @@ class _Drive:
             "generations": max((row.generation for row in self.latest), default=0),
             "evaluations": self.evaluations,
             "best": best_row(self.latest),
+            "stepped_s": round(self.stepped_s, 4),
             "busy": round(self.backend.ledger.busy_s / max(self.stepped_s * self.hosts, 1e-9), 4),
         }
 

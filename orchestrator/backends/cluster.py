@@ -77,6 +77,8 @@ def settle_environment(*, local: bool) -> None:
     }
     if local:
         settings |= dict.fromkeys(THREAD_VARIABLES, "1")
+        # Hosts are the run's work, not something behind it.
+        settings["RAY_worker_niceness"] = "0"
         # "No cluster here": all processes of this Ray then listen on loopback only, on Linux too.
         settings["RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER"] = "0"
         if not any(name in os.environ for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")):

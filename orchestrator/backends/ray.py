@@ -54,6 +54,7 @@ class RayBackend:
         self._deadlines = Deadlines(0, 0, 0)
         self._actors: dict[int, Any] = {}
         self._pending: dict[Any, _Pending] = {}
+        self._addresses: dict[int, Any] = {}
         self._told: dict[int, int] = {}
         self._connected = False
         self._events: deque[Event] = deque()
@@ -142,8 +143,9 @@ class RayBackend:
         if self._connected:
             return
         self._connected = True
+        everyone = {host: (actor, self._addresses[host]) for host, actor in self._actors.items()}
         for host, actor in self._actors.items():
-            actor.connect.remote({other: peer for other, peer in self._actors.items() if other != host})
+            actor.connect.remote({other: peer for other, peer in everyone.items() if other != host})
 
     def _patience(self, host: int, through: int) -> float:
         """Give how long a call may take.
@@ -201,6 +203,7 @@ class RayBackend:
             return HostFailed(host, f"host {host} did not {_doing(pending.what)}: {_one_line(error)}", alive=False)
         match pending.what:
             case Spawn():
+                self._addresses[host] = value
                 return HostReady(host)
             case Advance():
                 event = self._ledger.advanced(pending.what, value)

@@ -89,6 +89,7 @@ def _run(
                 "best": outcome.best,
                 "wall_s": outcome.wall_s,
                 "startup_s": outcome.startup_s,
+                "stepped_s": outcome.stepped_s,
                 "busy": outcome.busy,
             }
         )
