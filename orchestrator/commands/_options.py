@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import click
+
+from genome.errors import InputError
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -26,3 +29,17 @@ def json_option(function: F) -> F:
 def emit(data: Mapping[str, Any]) -> None:
     """Print one JSON object on one line of stdout."""
     click.echo(json.dumps(data, allow_nan=False))
+
+
+def check_place(runs_dir: str, name: str | None) -> None:
+    """Refuse a runs folder or a run's name that is none.
+
+    Raises
+    ------
+    InputError
+        For an empty folder, and a name of other characters than a run's folder can have everywhere.
+    """
+    if not runs_dir.strip():  # as a path it would be the current folder
+        raise InputError("--runs-dir", "a folder", f"'{runs_dir}'", "'.' is the current one")
+    if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
+        raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")

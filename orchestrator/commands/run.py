@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import shutil
 import sys
 from pathlib import Path
 
 import click
 
-from genome.errors import InputError
-from orchestrator.commands._options import emit, example, json_option
+from orchestrator.commands._options import check_place, emit, example, json_option
 from orchestrator.unbroken import Unbroken
 
 
@@ -40,10 +38,7 @@ def command(
     as_json: bool,
 ) -> None:
     """Run EXPERIMENT, a YAML file, and write its forms and log under the runs folder."""
-    if not runs_dir.strip():  # as a path it would be the current folder
-        raise InputError("--runs-dir", "a folder", f"'{runs_dir}'", "'.' is the current one")
-    if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
-        raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")
+    check_place(runs_dir, name)
     if seed is not None:
         overrides = (*overrides, f"seed={seed}")
     # Progress that nobody reads, as after `atoll run ... | head -1` or in a terminal that was closed, stops no run.
