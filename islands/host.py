@@ -306,7 +306,6 @@ class Host:
         island, packets = self._islands[number], self._agenda.take(number)
         step: Advance[Any]
         step = island.begin() if epoch == 0 else island.advance(self._states[number], self._plan.generations, packets)
-        self._agenda.done(number)
         self._states[number] = step.state
         self._history.setdefault(epoch, {})[number] = step.state
         self._tally.add(number, step)
@@ -314,6 +313,7 @@ class Host:
         if self._plan.schedule == "async" and epoch > 0:
             edges = self._routes.incoming(number, epoch - 1)
             self._log.tell(number, epoch, "arrivals", arrivals_detail(packets, edges, epoch - 1))
+        self._agenda.done(number)
         if epoch == self._plan.epochs:
             return
         placement, here = self._plan.placement, self._plan.host

@@ -318,7 +318,7 @@ def _told(state: Archipelago) -> Step:
         return _finish(state)
     instructions: list[Instruction] = []
     for host in range(state.hosts):
-        while len(state.calls[host]) < (1 if state.in_step else CALLS):
+        while len(state.calls[host]) < (CALLS if state.hosts > 1 and not state.in_step else 1):
             last = max(state.calls[host][-1] if state.calls[host] else -1, state.done[host])
             ahead = [mark for mark in state.marks if mark > last]
             if not ahead:

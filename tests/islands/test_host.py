@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from archipelagos import island, spec
 
-from islands.host import Host, HostPlan, best_forms, most_frequent_error
+from islands.forms import best_forms
+from islands.host import Host, HostPlan
 from islands.individual import Individual
+from islands.tally import most_frequent_error
 
 
 def member(identity: int, fitness: float | None, scores: tuple[tuple[str, float], ...], error: str = ""):
@@ -41,7 +43,7 @@ def test_a_summary_tells_the_trouble_of_a_deme_that_is_all_invalid_alone(tmp_pat
     plan = HostPlan(0, 1, "test", 5, str(tmp_path), isles, (), (0, 0), 1, 1, 3)
     host = Host(plan)
     host.ready()
-    bad, good = host.advance(0)[0]
+    bad, good = host.advance(0, 0, -1).summaries
     assert (good.trouble, good.invalid) == ("", 0)
     assert bad.trouble == ""
     assert 0 < bad.invalid < 12
@@ -50,5 +52,43 @@ def test_a_summary_tells_the_trouble_of_a_deme_that_is_all_invalid_alone(tmp_pat
     host.ready()
     biology = host._islands[0].biology
     biology.evaluate = lambda genotype: (_ for _ in ()).throw(SystemExit("no licence"))
-    (bad,) = host.advance(0)[0]
+    (bad,) = host.advance(0, 0, -1).summaries
     assert (bad.trouble, bad.invalid, bad.best) == ("exception: SystemExit: no licence", 12, None)
+
+
+def test_the_log_is_written_as_far_as_all_hosts_have_come_and_ends_where_it_is_told(tmp_path) -> None:
+    isles = (spec(0), spec(1))
+    host = Host(HostPlan(0, 2, "test", 5, str(tmp_path), isles, (), (0, 0), 1, 3, 1, epochs=9))
+    host.ready()
+
+    def names() -> list[str]:
+        return sorted(path.stem[1:14] for path in tmp_path.glob("log/generations/*.parquet"))
+
+    host.advance(5, 5, -1)
+    assert names() == []
+    host.advance(6, 6, 2)
+    assert names() == []
+    host.advance(9, 9, 6)
+    assert names() == ["000000-000003", "000004-000006"]
+    done = host.finish(True, 6, 8)
+    assert names() == ["000000-000003", "000004-000006", "000007-000008"]
+    assert [(row.epoch, row.evaluations) for row in done.summaries] == [(8, 20), (8, 20)]
+    assert sorted(path.name for path in (tmp_path / "forms").iterdir()) == ["isle-0-best1.txt", "isle-1-best1.txt"]
+
+
+def test_summaries_count_from_the_call_before(tmp_path) -> None:
+    host = Host(HostPlan(0, 1, "test", 5, str(tmp_path), (spec(0),), (), (0,), 2, 3, 1))
+    host.ready()
+    told = [host.advance(epoch, epoch, -1).summaries[0] for epoch in (0, 1, 4)]
+    assert [(row.epoch, row.generation, row.evaluations) for row in told] == [(0, 0, 12), (1, 2, 20), (4, 8, 60)]
+
+
+def test_nothing_goes_on_after_trouble(tmp_path, monkeypatch) -> None:
+    host = Host(HostPlan(0, 1, "test", 5, str(tmp_path), (spec(0),), (), (0,), 1, 3, 1))
+    host.ready()
+    host.advance(1, 1, -1)
+    monkeypatch.setattr(host._log, "add", lambda *given: (_ for _ in ()).throw(OSError(28, "No space left")))
+    told = host.advance(5, 5, 0)
+    assert (told.epoch, told.trouble, told.stopped) == (1, "OSError: [Errno 28] No space left", False)
+    monkeypatch.undo()
+    assert host.advance(9, 9, 0)[:2] == (1, ())

@@ -247,7 +247,7 @@ def test_grow_measures_the_square_and_writes_it(tmp_path) -> None:
 def test_a_failed_run_exits_with_one_and_says_why(tmp_path, monkeypatch) -> None:
     from islands.host import Host
 
-    monkeypatch.setattr(Host, "finish", lambda self, forms: (_ for _ in ()).throw(OSError(28, "No space left")))
+    monkeypatch.setattr(Host, "finish", lambda self, *given: (_ for _ in ()).throw(OSError(28, "No space left")))
     result = atoll("run", write(tmp_path, bits()), "--runs-dir", tmp_path, "--json")
     assert result.exit_code == 1
     assert last_json(result)["status"] == "failed"

@@ -260,14 +260,14 @@ def test_a_folder_that_cannot_be_written_is_bad_input(tmp_path) -> None:
 def test_a_failure_later_keeps_what_was_logged(tmp_path, monkeypatch) -> None:
     from islands.host import Host
 
-    real = Host.advance
+    real = Host._take_turn
 
-    def failing(self, epoch, *inboxes):
+    def failing(self, number, epoch):
         if epoch == 3:
             raise OSError(28, "No space left on device")
-        return real(self, epoch, *inboxes)
+        return real(self, number, epoch)
 
-    monkeypatch.setattr(Host, "advance", failing)
+    monkeypatch.setattr(Host, "_take_turn", failing)
     outcome = run(tmp_path)
     assert outcome.status == "failed"
     assert "No space left on device" in outcome.reason
@@ -280,14 +280,14 @@ def test_a_failure_later_keeps_what_was_logged(tmp_path, monkeypatch) -> None:
 def test_a_stop_in_mid_run_keeps_whole_epochs(tmp_path, monkeypatch) -> None:
     from islands.host import Host
 
-    real = Host.advance
+    real = Host._take_turn
 
-    def stopping(self, epoch, *inboxes):
+    def stopping(self, number, epoch):
         if epoch == 2:
             self.stop()
-        return real(self, epoch, *inboxes)
+        return real(self, number, epoch)
 
-    monkeypatch.setattr(Host, "advance", stopping)
+    monkeypatch.setattr(Host, "_take_turn", stopping)
     outcome = run(tmp_path)
     assert (outcome.status, outcome.generations) == ("stopped", 3)
     assert {row["generation"] for row in rows(outcome, "generations")} == {0, 1, 2, 3}

@@ -30,16 +30,16 @@ def strike(number: int) -> None:
     os.kill(os.getpid(), number)
 
 
-def in_epoch_two(monkeypatch, *numbers: int) -> None:
-    real = Host.advance
+def in_epoch_two(monkeypatch, *numbers: int, epoch: int = 2) -> None:
+    real = Host._take_turn
 
-    def struck(self, epoch, *inboxes):
-        if epoch == 2:
+    def struck(self, *turn):
+        if turn == (0, epoch):
             for number in numbers:
                 strike(number)
-        return real(self, epoch, *inboxes)
+        return real(self, *turn)
 
-    monkeypatch.setattr(Host, "advance", struck)
+    monkeypatch.setattr(Host, "_take_turn", struck)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -76,16 +76,16 @@ def test_a_run_that_is_stopped_before_it_has_a_folder_makes_none(tmp_path, monke
 
 def test_a_run_that_is_broken_off_keeps_what_the_driver_knows(tmp_path, monkeypatch) -> None:
     whole = run(tmp_path, name="whole")
-    in_epoch_two(monkeypatch, signal.SIGHUP, signal.SIGINT)
+    in_epoch_two(monkeypatch, signal.SIGHUP, signal.SIGINT, epoch=3)
     with pytest.raises(KeyboardInterrupt):
         run(tmp_path, name="broken")
     manifest = json.loads((tmp_path / "runs" / "broken" / "manifest.json").read_text(encoding="utf-8"))
     finished = json.loads((whole.folder / "manifest.json").read_text(encoding="utf-8"))
     assert manifest.keys() == finished.keys()
-    assert (manifest["status"], manifest["generations"]) == ("stopped", 3)
+    assert (manifest["status"], manifest["generations"]) == ("stopped", 6)
     assert manifest["error"].startswith("broken off by a second Ctrl-C")
     table = ds.dataset(whole.folder / "log" / "generations").to_table(columns=["epoch", "evaluations"]).to_pylist()
-    assert manifest["evaluations"] == sum(row["evaluations"] for row in table if row["epoch"] < 2)
+    assert manifest["evaluations"] == sum(row["evaluations"] for row in table if row["epoch"] < 3)
     assert manifest["best"].keys() == {"island", "id", "fitness"}
     assert manifest["ended"]
 
