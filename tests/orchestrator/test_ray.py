@@ -79,21 +79,44 @@ def _belongs(process: psutil.Process, folder: str) -> bool:
         return False
 
 
+def told_of(folder: Path, name: str, *sets: str, hash_seed: str = "0") -> tuple[Path, dict]:
+    """Run to the end in a folder of its own; give the run's folder and what the command said."""
+    place = folder / name
+    place.mkdir()
+    arguments = [part for one in ("backend=ray", *sets) for part in ("--set", one)]
+    told, _ = ended(start(place, bits(), *arguments, hash_seed=hash_seed), 0)
+    return Path(told["run"]), told
+
+
 @pytest.mark.ray
 def test_the_digest_is_the_same_on_any_number_of_hosts(tmp_path, clean) -> None:
-    """In this process, and on 1, 2 and 4 hosts, under different hash seeds."""
+    """In this process, and on 1, 2 and 4 hosts, by both schedules that promise it, under different hash seeds."""
     whole = digest(run(tmp_path).folder / "log")
     assert whole[1] > 500
-    for hosts in (1, 2, 4):
-        folder = tmp_path / str(hosts)
-        folder.mkdir()
-        sets = ["--set", "backend=ray", "--set", f"hosts={hosts}"]
-        told, _ = ended(start(folder, bits(), *sets, hash_seed=str(hosts)), 0)
-        manifest = json.loads((Path(told["run"]) / "manifest.json").read_text(encoding="utf-8"))
+    for hosts, schedule, seed in (
+        (1, "barrier", "1"), (2, "barrier", "0"), (4, "barrier", "1"), (2, "dataflow", "1"), (4, "dataflow", "0"),
+    ):  # fmt: skip
+        sets = [f"hosts={hosts}", f"schedule={schedule}"]
+        folder, told = told_of(tmp_path, f"{schedule}-{hosts}", *sets, hash_seed=seed)
+        manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
         assert (manifest["status"], manifest["hosts"]) == ("finished", hosts)
-        assert digest(Path(told["run"]) / "log") == whole
-        files = list((Path(told["run"]) / "log" / "generations").iterdir())
+        assert digest(folder / "log") == whole
+        assert 0 < told["busy"] <= 1
+        files = list((folder / "log" / "generations").iterdir())
         assert len({path.name.split("-i")[1] for path in files}) == hosts
+
+
+@pytest.mark.ray
+def test_an_async_run_replays_on_another_number_of_hosts(tmp_path, clean) -> None:
+    folder, _ = told_of(tmp_path, "free", "hosts=3", "schedule=async", "epochs=20")
+    command = [sys.executable, "-m", "orchestrator.cli", "replay", str(folder), "--runs-dir", str(tmp_path), "--json"]
+    paths = os.pathsep.join([str(ROOT), str(ROOT / "tests" / "support")])
+    environment = {**os.environ, "PYTHONPATH": paths, "ATOLL_TEST": str(tmp_path)}
+    done = subprocess.run([*command, "--set", "hosts=2"], capture_output=True, text=True, env=environment, timeout=120)
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
+    assert (told["same"], told["digest"]) == (True, digest(folder / "log")[0])
+    assert json.loads((Path(told["run"]) / "manifest.json").read_text(encoding="utf-8"))["hosts"] == 2
 
 
 def slow() -> dict:
