@@ -5,8 +5,8 @@ from __future__ import annotations
 import random
 
 import pytest
-
 from archipelagos import ring
+
 from islands.agenda import REMEMBERED, Agenda, Complete, Present, Recorded
 from islands.migration.channel import Channel, Packet
 from islands.migration.routes import Redrawn, Routes

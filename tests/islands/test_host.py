@@ -70,7 +70,7 @@ def test_the_log_is_written_as_far_as_all_hosts_have_come_and_ends_where_it_is_t
     assert names() == []
     host.advance(9, 9, 6)
     assert names() == ["000000-000003", "000004-000006"]
-    done = host.finish(True, 6, 8)
+    done = host.finish(forms=True, settled=6, through=8)
     assert names() == ["000000-000003", "000004-000006", "000007-000008"]
     assert [(row.epoch, row.evaluations) for row in done.summaries] == [(8, 20), (8, 20)]
     assert sorted(path.name for path in (tmp_path / "forms").iterdir()) == ["isle-0-best1.txt", "isle-1-best1.txt"]

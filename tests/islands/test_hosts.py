@@ -6,9 +6,9 @@ import json
 
 import pyarrow.dataset as ds
 import pytest
+from hosts import run_on_threads
 
 from experiments import bits, write
-from hosts import run_on_threads
 from orchestrator.archipelago import Conclude, EpochDone
 from orchestrator.digest import digest
 

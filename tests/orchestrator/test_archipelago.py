@@ -227,6 +227,20 @@ def test_nothing_follows_the_conclusion() -> None:
         assert decide(state, event) == (state, ())
 
 
+def answered(what, seconds, stood):
+    """Give a host's answer, having seen that it was asked for what it can do."""
+    match what:
+        case Spawn(host):
+            return HostReady(host)
+        case Advance(host, through, horizon, settled):
+            assert stood[host] < through <= horizon
+            assert settled <= min(stood)
+            return EpochDone(host, through, seconds)
+        case Finish(host, _, _, through):
+            assert through <= min(stood)
+            return HostFinished(host)
+
+
 @pytest.mark.parametrize("schedule", ["barrier", "dataflow", "async"])
 @pytest.mark.parametrize("seed", range(150))
 def test_whatever_happens_it_concludes_exactly_once_and_never_hangs(seed, schedule) -> None:
@@ -260,16 +274,7 @@ def test_whatever_happens_it_concludes_exactly_once_and_never_hangs(seed, schedu
         host = rng.choice([one.host for one in pending])
         what = next(one for one in pending if one.host == host)
         pending.remove(what)
-        match what:
-            case Spawn():
-                answer = HostReady(host)
-            case Advance():
-                answer = EpochDone(host, what.through, rng.random() * 2 * CALL_S)
-                assert stood.get(host, -1) < what.through <= what.horizon <= epochs
-                assert what.settled <= min(stood.get(other, -1) for other in range(hosts))
-            case Finish():
-                answer = HostFinished(host)
-                assert what.through <= min((stood.get(other, -1) for other in range(hosts)))
+        answer = answered(what, rng.random() * 2 * CALL_S, [stood.get(other, -1) for other in range(hosts)])
         if rng.random() < trouble:
             alive = rng.random() < 0.5
             if not alive:

@@ -10,9 +10,9 @@ import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 import pytest
 from click.testing import CliRunner
+from hosts import run_on_threads
 
 from experiments import bits, run, write
-from hosts import run_on_threads
 from orchestrator.cli import main
 from orchestrator.digest import digest
 from orchestrator.folder import open_run
@@ -69,7 +69,7 @@ def test_runs_of_other_schedules_replay_and_stopped_ones_up_to_where_they_came(t
 def test_a_log_that_says_otherwise_exits_with_one(late, tmp_path) -> None:
     forged = tmp_path / "forged"
     shutil.copytree(late.path, forged)
-    path = sorted((forged / "log" / "generations").iterdir())[0]
+    path = min((forged / "log" / "generations").iterdir())
     table = pq.read_table(path)
     changed = pa.array([*table["evaluations"].to_pylist()[:-1], 77], pa.int64())
     pq.write_table(table.set_column(table.schema.get_field_index("evaluations"), "evaluations", changed), path)

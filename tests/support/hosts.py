@@ -114,6 +114,16 @@ def run_on_threads(
             weather.close()
 
 
+def _answers(calls: deque) -> list[Event]:
+    """Wait for answers; those of one host come in order."""
+    wait([call for _, call in calls], timeout=60, return_when="FIRST_COMPLETED")
+    oldest = {host: (host, call) for host, call in reversed(calls)}
+    done = [entry for entry in oldest.values() if entry[1].done()]
+    for entry in done:
+        calls.remove(entry)
+    return [call.result() for _, call in done]
+
+
 def _driven(
     hosts: list[Host],
     plans: Sequence[HostPlan],
@@ -141,13 +151,8 @@ def _driven(
     try:
         while True:
             while not events:
-                wait([call for _, call in calls], timeout=60, return_when="FIRST_COMPLETED")
-                for host in range(len(hosts)):  # a host's answers come in order
-                    oldest = next((entry for entry in calls if entry[0] == host), None)
-                    if oldest is not None and oldest[1].done():
-                        calls.remove(oldest)
-                        events.append(oldest[1].result())
-                assert events or calls, "the machine waits for nobody"
+                assert calls, "the machine waits for nobody"
+                events.extend(_answers(calls))
             event = events.popleft()
             state, instructions = decide(state, event)
             for instruction in instructions:

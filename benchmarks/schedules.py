@@ -1,0 +1,84 @@
+"""How much of two cores' time goes into the islands' own work, by schedule, on two Ray hosts.
+
+The first part gives every island the same work an epoch, on a complete topology with migration each epoch, where all
+wait for all: the share of two cores that this work takes, start-up aside. The second lets evaluation times be
+log-normal (sigma 1), where a barrier waits for the slowest.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from benchmarks.runs import run
+
+ISLANDS, HOSTS, ROUNDS = 8, 2, 3
+EXPERIMENT = """
+name: schedules
+epochs: {epochs}
+epoch: 1
+hosts: 2
+schedule: {schedule}
+islands:
+  i:
+    kind: benchmarks.timed_work:TimedWorkKind
+    count: {islands}
+    population: 2
+    growth: {{ms: {ms}, sigma: {sigma}}}
+    fitness: {{ones: {{goal: maximise}}}}
+    algorithm: {{elite: 1, tournament: 2, crossover: 0.0, mutation: 1.0}}
+channels:
+  - {{kind: migrants, topology: {topology}, count: 1}}
+forms: {{best: 0}}
+log: {{flush_generations: 250}}
+"""
+BUSY = ((1.0, 1000, 0.65), (20.0, 100, 0.95), (200.0, 15, 0.99))
+"""Milliseconds of work an island and epoch, epochs, and the least share that is to be busy with it."""
+
+SPARSE = ("ring", "{name: torus, rows: 2, columns: 4}")
+MOST_IDLE = 0.10
+
+
+def busy(folder: Path, schedule: str, ms: float, epochs: int) -> float:
+    """Give the share of two cores that islands' work took, in the best round."""
+    text = EXPERIMENT.format(epochs=epochs, schedule=schedule, islands=ISLANDS, ms=ms, sigma=0.0, topology="complete")
+    # The first population is two individuals an island; each epoch breeds one.
+    work = ISLANDS * (epochs + 2) * ms / 1e3
+    rounds = [run(folder, text, f"{schedule}-{ms:g}-{turn}")["stepped_s"] for turn in range(ROUNDS)]
+    return work / (min(rounds) * HOSTS)
+
+
+def uneven(folder: Path, schedule: str, topology: str) -> tuple[float, float]:
+    """Give the wall time and the idle share of a run whose evaluation times are log-normal, in the best round."""
+    text = EXPERIMENT.format(epochs=300, schedule=schedule, islands=ISLANDS, ms=5.0, sigma=1.0, topology=topology)
+    told = [run(folder, text, f"{schedule}-{topology[:4].strip('{')}-{turn}") for turn in range(ROUNDS)]
+    best = min(told, key=lambda one: float(one["stepped_s"]))
+    return float(best["stepped_s"]), 1 - float(best["busy"])
+
+
+def main() -> bool:
+    """Print the shares and ratios; tell whether all are within their limits."""
+    fine = True
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for ms, epochs, least in BUSY:
+            share = busy(folder, "dataflow", ms, epochs)
+            fine &= share >= least
+            print(f"schedules: dataflow, complete, {ms:g} ms: {share:.3f} busy (at least {least:g})", flush=True)
+            share = busy(folder, "barrier", ms, epochs)
+            print(f"schedules: barrier, complete, {ms:g} ms: {share:.3f} busy (told, not limited)", flush=True)
+        for topology in SPARSE:
+            barrier, idle = uneven(folder, "barrier", topology)
+            print(f"schedules: barrier, {topology}, log-normal: {barrier:.2f} s, {idle:.3f} idle", flush=True)
+            for schedule in ("dataflow", "async"):
+                wall, idle = uneven(folder, schedule, topology)
+                fine &= wall < barrier and idle < MOST_IDLE
+                print(
+                    f"schedules: {schedule}, {topology}, log-normal: {wall:.2f} s, {wall / barrier:.3f} of the ", end=""
+                )
+                print(f"barrier's (under 1), {idle:.3f} idle (under {MOST_IDLE:g})", flush=True)
+    return fine
+
+
+if __name__ == "__main__":
+    raise SystemExit(not main())
