@@ -50,6 +50,7 @@ class Letterbox:
         """Begin to read, from so many peers; with none the letterbox is taken down."""
         if not peers:
             self._take_down()
+            self._doors.close()
             return
         self._thread = threading.Thread(target=self._read, args=(peers,), daemon=True, name="letterbox")
         self._thread.start()
@@ -72,6 +73,7 @@ class Letterbox:
                         self._take_down()
                 elif isinstance(key.fileobj, socket.socket):
                     self._read_from(key.fileobj)
+        self._doors.close()
 
     def _read_from(self, door: socket.socket) -> None:
         try:

@@ -241,6 +241,15 @@ def answered(what, seconds, stood):
             return HostFinished(host)
 
 
+def troubled(answer, rng, trouble, stood):
+    """Give an answer, or what comes in its place where there is trouble."""
+    if rng.random() < trouble:
+        return HostFailed(answer.host, "trouble", rng.random() < 0.5, stood)
+    if isinstance(answer, EpochDone) and rng.random() < trouble:
+        return EpochAbandoned(answer.host, stood)
+    return answer
+
+
 @pytest.mark.parametrize("schedule", ["barrier", "dataflow", "async"])
 @pytest.mark.parametrize("seed", range(150))
 def test_whatever_happens_it_concludes_exactly_once_and_never_hangs(seed, schedule) -> None:
@@ -275,18 +284,13 @@ def test_whatever_happens_it_concludes_exactly_once_and_never_hangs(seed, schedu
         what = next(one for one in pending if one.host == host)
         pending.remove(what)
         answer = answered(what, rng.random() * 2 * CALL_S, [stood.get(other, -1) for other in range(hosts)])
-        if rng.random() < trouble:
-            alive = rng.random() < 0.5
-            if not alive:
-                dead.add(host)
-                pending = [one for one in pending if one.host != host]
-            feed(HostFailed(host, "trouble", alive, stood.get(host, -1)))
-        elif isinstance(what, Advance) and rng.random() < trouble:
-            feed(EpochAbandoned(host, stood.get(host, -1)))
-        else:
-            if isinstance(what, Advance):
-                stood[host] = what.through
-            feed(answer)
+        answer = troubled(answer, rng, trouble, stood.get(host, -1))
+        if isinstance(answer, HostFailed) and not answer.alive:
+            dead.add(host)
+            pending = [one for one in pending if one.host != host]
+        if isinstance(answer, EpochDone):
+            stood[host] = answer.epoch
+        feed(answer)
         if rng.random() < trouble:
             feed(StopAsked())
     assert len(conclusions) == 1
