@@ -35,7 +35,7 @@ log: {{flush_generations: 250}}
 BUSY = ((1.0, 1000, 0.65), (20.0, 100, 0.95), (200.0, 15, 0.99))
 """Milliseconds of work an island and epoch, epochs, and the least share that is to be busy with it."""
 
-SPARSE = ("ring", "{name: torus, rows: 2, columns: 4}")
+SPARSE = ("ring", "{name: torus, rows: 4, columns: 4}")
 MOST_IDLE = 0.10
 
 
@@ -50,7 +50,7 @@ def busy(folder: Path, schedule: str, ms: float, epochs: int) -> float:
 
 def uneven(folder: Path, schedule: str, topology: str) -> tuple[float, float]:
     """Give the wall time and the idle share of a run whose evaluation times are log-normal, in the best round."""
-    text = EXPERIMENT.format(epochs=300, schedule=schedule, islands=ISLANDS, ms=5.0, sigma=1.0, topology=topology)
+    text = EXPERIMENT.format(epochs=200, schedule=schedule, islands=2 * ISLANDS, ms=5.0, sigma=1.0, topology=topology)
     told = [run(folder, text, f"{schedule}-{topology[:4].strip('{')}-{turn}") for turn in range(ROUNDS)]
     best = min(told, key=lambda one: float(one["stepped_s"]))
     return float(best["stepped_s"]), 1 - float(best["busy"])

@@ -8,16 +8,18 @@ The rule by which islands take in packets makes the schedules what they are:
   stay until it has come as far, so that no epoch builds on a later one and a run can be cut off at any.
 - :class:`Recorded`: an island takes in exactly what a record says, and waits for it: a replay.
 
-Islands that are ready step in the order of their epochs, then of their numbers.
+Islands that are ready step in the order of their epochs, each of them later by its rank, then of their numbers. Ranks
+let those go ahead that other hosts wait for (:func:`ranks`).
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from heapq import heappop, heappush
 from typing import Final, Protocol, final
 
-from islands.migration.channel import Packet
+from islands.migration.channel import Edge, Packet
 from islands.migration.routes import Routes
 
 Mark = tuple[int, int, int]
@@ -25,6 +27,10 @@ Mark = tuple[int, int, int]
 
 REMEMBERED: Final = 256
 """Epochs for which packets taken in are remembered, so that none counts twice; more than hosts may be apart."""
+
+
+MOST_RANKS: Final = 8
+"""Epochs that an island lags behind at most for another's sake: the states in between take memory."""
 
 
 class Rule(Protocol):
@@ -133,12 +139,17 @@ class Agenda:
         Their numbers.
     rule
         Which packets they wait for and take in.
+    ranks
+        For islands that may lag behind, by how many epochs.
     """
 
-    def __init__(self, islands: Iterable[int], rule: Rule) -> None:
+    def __init__(self, islands: Iterable[int], rule: Rule, ranks: Mapping[int, int] | None = None) -> None:
         self._rule = rule
+        self._ranks = ranks or {}
+        self._parked: list[tuple[int, int, int]] = []
+        self._horizon = -1
         self._places = {island: _Place() for island in islands}
-        self._ready: list[tuple[int, int]] = []
+        self._ready: list[tuple[int, int, int]] = []
         self._finished: dict[int, int] = {}
         self._floor = -1
         for island in self._places:
@@ -161,14 +172,20 @@ class Agenda:
         if mark in place.lacks:
             place.lacks.discard(mark)
             if not place.lacks:
-                heappush(self._ready, (place.epoch, packet.target))
+                self._queue(packet.target)
         return True
 
     def next(self, horizon: int) -> tuple[int, int] | None:
         """Give the island that is to step next and the epoch it begins; ``None`` while none up to the horizon can."""
-        if not self._ready or self._ready[0][0] > horizon:
+        if horizon != self._horizon:
+            for entry in self._parked:
+                heappush(self._ready, entry)
+            self._parked, self._horizon = [], horizon
+        while self._ready and self._ready[0][1] > horizon:
+            self._parked.append(heappop(self._ready))
+        if not self._ready:
             return None
-        epoch, island = self._ready[0]
+        _, epoch, island = self._ready[0]
         return island, epoch
 
     def take(self, island: int) -> list[Packet]:
@@ -184,7 +201,7 @@ class Agenda:
 
     def done(self, island: int) -> None:
         """Note that the island that was next has finished its epoch."""
-        epoch, first = heappop(self._ready)
+        _, epoch, first = heappop(self._ready)
         place = self._places[island]
         if first != island or epoch != place.epoch:
             text = f"island {island} stepped through epoch {place.epoch}, island {first} was next, to step {epoch}"
@@ -208,4 +225,34 @@ class Agenda:
         place = self._places[island]
         place.lacks = {mark for mark in self._rule.needed(island, place.epoch) if mark not in place.box}
         if not place.lacks:
-            heappush(self._ready, (place.epoch, island))
+            self._queue(island)
+
+    def _queue(self, island: int) -> None:
+        epoch = self._places[island].epoch
+        heappush(self._ready, (epoch + self._ranks.get(island, 0), epoch, island))
+
+
+def ranks(placement: Sequence[int], host: int, edges: Iterable[Edge]) -> dict[int, int]:
+    """Give each island of a host its distance, in edges within the host, from one that another host waits for.
+
+    Islands that go ahead by as much as they are nearer to it keep the other hosts supplied for longest. Islands that no
+    other host ever waits for come last.
+    """
+    here = [island for island, place in enumerate(placement) if place == host]
+    before: dict[int, list[int]] = {island: [] for island in here}
+    found: dict[int, int] = {}
+    for edge in edges:
+        if placement[edge.source] == host:
+            if placement[edge.target] == host:
+                before[edge.target].append(edge.source)
+            else:
+                found[edge.source] = 0
+    queue = deque(sorted(found))
+    while queue:
+        island = queue.popleft()
+        for source in before[island]:
+            if source not in found:
+                found[source] = found[island] + 1
+                queue.append(source)
+    last = max(found.values(), default=-1) + 1
+    return {island: min(found.get(island, last), MOST_RANKS) for island in here}

@@ -19,7 +19,7 @@ from typing import Any, Final, Literal, NamedTuple, final
 
 from genome.errors import InputError
 from growth.protocol import Clock
-from islands.agenda import Agenda, Complete, Present, Recorded, Rule
+from islands.agenda import Agenda, Complete, Present, Recorded, Rule, ranks
 from islands.arrivals import arrivals_detail, recorded_arrivals
 from islands.forms import best_forms, write_forms
 from islands.island import Island
@@ -224,7 +224,9 @@ class Host:
             )
             for spec in plan.islands
         }
-        self._agenda = Agenda(self._islands, self._rule())
+        # Where nobody waits, nobody is to be kept supplied.
+        order = {} if plan.schedule != "dataflow" else ranks(plan.placement, plan.host, plan.edges)
+        self._agenda = Agenda(self._islands, self._rule(), order)
         return plan.host
 
     def _rule(self) -> Rule:

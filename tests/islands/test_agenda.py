@@ -7,7 +7,7 @@ import random
 import pytest
 from archipelagos import ring
 
-from islands.agenda import REMEMBERED, Agenda, Complete, Present, Recorded
+from islands.agenda import REMEMBERED, Agenda, Complete, Present, Recorded, ranks
 from islands.migration.channel import Channel, Packet
 from islands.migration.routes import Redrawn, Routes
 
@@ -134,3 +134,15 @@ def test_whatever_the_order_of_packets_every_epoch_takes_the_same(seed) -> None:
         edges = routes.incoming(island, epoch - 1) if epoch else ()
         assert marks == [(edge.channel.number, edge.source, epoch - 1) for edge in edges]
     assert len(taken) == 6 * 9
+
+
+def test_islands_that_other_hosts_wait_for_go_ahead_of_those_behind_them() -> None:
+    edges = ring(8, CHANNEL)
+    assert ranks([0, 0, 0, 0, 1, 1, 1, 1], 0, edges) == {0: 3, 1: 2, 2: 1, 3: 0}
+    assert ranks([0] * 8, 0, edges) == dict.fromkeys(range(8), 0)
+    assert ranks([0, 0, 1, 1], 0, (*ring(2, CHANNEL), *edges[1:2])) == {0: 1, 1: 0}
+    agenda = Agenda(range(2), Complete(Routes(())), {0: 2})
+    order = [stepped(agenda, 3)[:2] for _ in range(8)]
+    assert order == [(1, 0), (1, 1), (0, 0), (1, 2), (0, 1), (1, 3), (0, 2), (0, 3)]
+    assert agenda.next(3) is None
+    assert (agenda.next(4), agenda.floor) == ((1, 4), 3)
