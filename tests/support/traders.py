@@ -85,7 +85,6 @@ class SkinBiology(BitsBiology):
         overlap = sum(a & b for word in words for a, b in zip(genotype, word, strict=True))
         return _more(super().evaluate(genotype), float(-overlap))
 
-
     def offer(self, genotype: Bits, kind: ChannelKind) -> str:
         """Its form hangs on those around it."""
         words = [genotype, *(json.loads(form.text) for form in self.forms)]
