@@ -75,6 +75,11 @@ class Check(Protocol):
         """How many verdicts it gives."""
         ...
 
+    @property
+    def all_end(self) -> bool:
+        """Whether a run that does not come to its end decides its case."""
+        ...
+
     def run(self, case: str, seed: int, *, migration: bool) -> float | None:
         """Run a case once; without ``migration`` its islands stay alone, to see that the check notices."""
         ...

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from typing import Final, NamedTuple
 
 from islands.host import pin_threads
@@ -74,11 +74,22 @@ def _performed(batches: Sequence[_Batch], processes: int) -> Iterator[list[float
     if processes == 1:
         yield from map(_perform, batches)
         return
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context, initializer=pin_threads) as pool:
-        yield from pool.map(_perform, batches)
+    # A pool that is left, on Ctrl-C too, ends its processes at once.
+    with multiprocessing.get_context("spawn").Pool(processes, initializer=_ready) as pool:
+        yield from pool.imap(_perform, batches)
+
+
+def _ready() -> None:
+    # A Ctrl-C in a terminal is the parent's to handle.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    pin_threads()
 
 
 def _perform(batch: _Batch) -> list[float | None]:
-    seeds = range(batch.first_seed, batch.first_seed + batch.runs)
-    return [batch.check.run(batch.case.name, seed, migration=batch.migration) for seed in seeds]
+    outcomes: list[float | None] = []
+    for seed in range(batch.first_seed, batch.first_seed + batch.runs):
+        outcomes.append(batch.check.run(batch.case.name, seed, migration=batch.migration))
+        if outcomes[-1] is None and batch.check.all_end:
+            # One run that does not end decides the case: the others of the batch need not be waited for.
+            return [*outcomes, *[None] * (batch.runs - len(outcomes))]
+    return outcomes

@@ -11,7 +11,7 @@ from orchestrator.validate.means import compared
 from orchestrator.validate.model import Model, Setting, first_reaching
 
 BITS, ISLANDS, RUNS = 64, 16, 60
-PATIENCE: Final = 5
+PATIENCE: Final = 3
 """A run is given up after so many times the published mean."""
 
 EPOCH: Final = 64
@@ -34,6 +34,7 @@ class LeadingOnes:
     """See the module's docstring."""
 
     name: Final = "leading_ones"
+    all_end: Final = True
 
     def __init__(self, runs: int = RUNS) -> None:
         self.cases: Final = tuple(Case(name, runs) for name in PUBLISHED)

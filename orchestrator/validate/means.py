@@ -11,7 +11,7 @@ def compared(check: str, case: str, published: float, decimals: int, outcomes: O
     done = [value for value in outcomes if value is not None]
     expected = f"{published:.{decimals}f}"
     if len(done) < len(outcomes):
-        detail = f"{len(outcomes) - len(done)} of {len(outcomes)} runs did not come to their end"
+        detail = "there are runs that did not come to their end"
         return Verdict(check, case, expected, None, None, None, len(outcomes), ok=False, detail=detail)
     found = mean_interval(done, comparisons, published_runs=len(done))
     rounding = 0.5 * 10.0**-decimals

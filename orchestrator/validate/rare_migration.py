@@ -26,6 +26,7 @@ class RareMigration:
     """See the module's docstring."""
 
     name: Final = "rare_migration"
+    all_end: Final = False
     comparisons: Final = 2
 
     def __init__(self, runs: int = RUNS) -> None:

@@ -18,7 +18,7 @@ from orchestrator.validate.means import compared
 from orchestrator.validate.model import Model, Setting
 
 ISLANDS, DEME, RUNS = 8, 20, 200
-PATIENCE: Final = 5
+PATIENCE: Final = 3
 """A run is given up after so many times the published mean."""
 
 PUBLISHED: Final[Mapping[tuple[str, int], float]] = {
@@ -48,6 +48,7 @@ class Takeover:
     """See the module's docstring."""
 
     name: Final = "takeover"
+    all_end: Final = True
 
     def __init__(self, runs: int = RUNS) -> None:
         self._published = {f"{name}, every {every}": value for (name, every), value in PUBLISHED.items()}

@@ -14,7 +14,7 @@ from islands.migration import replacement
 from orchestrator.cli import main
 from orchestrator.validate import leading_ones, rare_migration, takeover
 from orchestrator.validate.case import Case
-from orchestrator.validate.checking import BATCH, CHECKS, _batches, _performed, validate
+from orchestrator.validate.checking import BATCH, CHECKS, _batches, _perform, _performed, validate
 from orchestrator.validate.leading_ones import LeadingOnes
 from orchestrator.validate.means import compared
 from orchestrator.validate.statistics import difference, mean_interval, quantile, share_interval
@@ -47,7 +47,7 @@ def test_a_mean_agrees_inside_its_interval_and_with_runs_that_ended() -> None:
     inside, outside = compared("x", "y", 10.1, 1, values, 1), compared("x", "y", 10.9, 1, values, 1)
     assert (inside.ok, outside.ok) == (True, False)
     unfinished = compared("x", "y", 10.0, 1, [*values, None], 1)
-    assert (unfinished.ok, unfinished.detail) == (False, "1 of 101 runs did not come to their end")
+    assert (unfinished.ok, unfinished.detail) == (False, "there are runs that did not come to their end")
 
 
 def few(check, names: dict[str, int]):
@@ -90,6 +90,14 @@ def test_the_same_seed_gives_the_same_figure_and_batches_cover_every_run() -> No
     one = validate([Takeover(runs=3)], 1)
     assert {verdict.runs for verdict in one} == {3}
     assert [verdict.case for verdict in one] == [case.name for case in check.cases]
+
+
+def test_a_run_that_does_not_end_decides_its_batch_where_all_should() -> None:
+    check = few(Takeover(), {"complete, every 1": 10})
+    (batch,) = _batches(check, migration=False)
+    assert _perform(batch) == [None] * 10
+    (batch,) = _batches(few(rare_migration.RareMigration(), {"never": 4}), migration=True)
+    assert len(_perform(batch)) == 4
 
 
 def test_the_cases_are_those_published() -> None:
