@@ -23,7 +23,7 @@ islands:
   i:
     kind: benchmarks.timed_work:TimedWorkKind
     count: {islands}
-    population: 2
+    population: {population}
     growth: {{ms: {ms}, sigma: {sigma}}}
     fitness: {{ones: {{goal: maximise}}}}
     algorithm: {{elite: 1, tournament: 2, crossover: 0.0, mutation: 1.0}}
@@ -35,13 +35,17 @@ log: {{flush_generations: 250}}
 BUSY = ((1.0, 1000, 0.65), (20.0, 100, 0.95), (200.0, 15, 0.99))
 """Milliseconds of work an island and epoch, epochs, and the least share that is to be busy with it."""
 
-SPARSE = ("ring", "{name: torus, rows: 4, columns: 4}")
+SPARSE = ("ring", "{name: torus, rows: 2, columns: 4}")
+UNEVEN_EPOCHS, EVALUATIONS = 150, 8
+"""Of the runs with log-normal times: epochs, and evaluations an island and epoch, of a millisecond on average."""
+
 MOST_IDLE = 0.10
 
 
 def busy(folder: Path, schedule: str, ms: float, epochs: int) -> float:
     """Give the share of two cores that islands' work took, in the best round."""
-    text = EXPERIMENT.format(epochs=epochs, schedule=schedule, islands=ISLANDS, ms=ms, sigma=0.0, topology="complete")
+    made = {"islands": ISLANDS, "population": 2, "ms": ms, "sigma": 0.0, "topology": "complete"}
+    text = EXPERIMENT.format(epochs=epochs, schedule=schedule, **made)
     # The first population is two individuals an island; each epoch breeds one.
     work = ISLANDS * (epochs + 2) * ms / 1e3
     rounds = [run(folder, text, f"{schedule}-{ms:g}-{turn}")["stepped_s"] for turn in range(ROUNDS)]
@@ -50,7 +54,8 @@ def busy(folder: Path, schedule: str, ms: float, epochs: int) -> float:
 
 def uneven(folder: Path, schedule: str, topology: str) -> tuple[float, float]:
     """Give the wall time and the idle share of a run whose evaluation times are log-normal, in the best round."""
-    text = EXPERIMENT.format(epochs=200, schedule=schedule, islands=2 * ISLANDS, ms=5.0, sigma=1.0, topology=topology)
+    made = {"epochs": UNEVEN_EPOCHS, "islands": ISLANDS, "population": EVALUATIONS + 1, "ms": 1.0, "sigma": 1.0}
+    text = EXPERIMENT.format(schedule=schedule, topology=topology, **made)
     told = [run(folder, text, f"{schedule}-{topology[:4].strip('{')}-{turn}") for turn in range(ROUNDS)]
     best = min(told, key=lambda one: float(one["stepped_s"]))
     return float(best["stepped_s"]), 1 - float(best["busy"])

@@ -10,13 +10,12 @@ about a millisecond Atoll is to take at most 1.05 of the best peer's, with log-n
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 from benchmarks.peers.problem import DEME, EPOCH, GENERATIONS, ISLANDS, cost, evaluations
+from benchmarks.runs import run
 
 ROOT = Path(__file__).parents[2]
 PEERS = ROOT / ".venv-peers" / "bin" / "python"
@@ -27,6 +26,7 @@ name: peers
 epochs: {GENERATIONS // EPOCH}
 epoch: {EPOCH}
 hosts: 2
+forms: {{best: 0}}
 islands:
   i:
     kind: benchmarks.peers.work:WorkKind
@@ -42,15 +42,11 @@ channels:
 
 def atoll(folder: Path, schedule: str, times: str, turn: int) -> float:
     """Run on two Ray hosts, with migration and log, and give seconds an evaluation, start-up aside."""
-    (folder / "peers.yaml").write_text(EXPERIMENT, encoding="utf-8")
-    command = [sys.executable, "-m", "orchestrator.cli", "run", str(folder / "peers.yaml"), "--json"]
-    command += ["--runs-dir", str(folder), "--name", f"{schedule}-{times}-{turn}", "--set", f"schedule={schedule}"]
-    command += ["--set", f"islands.i.growth.times={times}"]
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment, cwd=ROOT)
-    told = json.loads(done.stdout.splitlines()[-1])
-    manifest = json.loads((Path(told["run"]) / "manifest.json").read_text(encoding="utf-8"))
-    return float((told["wall_s"] - manifest["startup_s"]) / told["evaluations"])
+    settings = (f"schedule={schedule}", f"islands.i.growth.times={times}")
+    told = run(folder, EXPERIMENT, f"{schedule}-{times}-{turn}", *settings)
+    manifest = json.loads((folder / told["run"] / "manifest.json").read_text(encoding="utf-8"))
+    # What is written after the last epoch counts.
+    return float((manifest["wall_s"] - manifest["startup_s"]) / told["evaluations"])
 
 
 def peer(name: str, times: str) -> float:

@@ -1,14 +1,22 @@
 """The problem that all sides solve: OneMax with work that costs about a millisecond, fixed or log-normal.
 
-The work is hashing, so that it costs the same everywhere; how much of it is a function of the string alone. It needs
-nothing but the standard library, since each side runs in an environment of its own.
+The work is hashing, so that it costs the same everywhere. Log-normal times do not hang on the string, since a
+population that comes to one best string would come to one time: each process goes round a list of quantiles in an order
+of its own, so that all sides do the same work within a percent. It needs nothing but the standard library, since each
+side runs in an environment of its own.
 """
 
 from __future__ import annotations
 
 import hashlib
 import math
+import os
+import random
 import time
+from collections.abc import Iterator
+from functools import cache
+from itertools import cycle
+from statistics import NormalDist
 
 BITS = 100
 ISLANDS, DEME, GENERATIONS, EPOCH = 8, 20, 60, 2
@@ -17,23 +25,25 @@ ISLANDS, DEME, GENERATIONS, EPOCH = 8, 20, 60, 2
 ROUNDS = 4300
 """Rounds of hashing in a millisecond, about."""
 
-MOST = 60.0
-"""A log-normal draw is cut here, in milliseconds."""
+QUANTILES = 1000
+"""Different times of the log-normal distribution."""
 
 
 def evaluate(bits: tuple[int, ...], times: str) -> float:
     """Do the work of a string and count its ones."""
-    share = 1.0 if times == "constant" else lognormal(bits)
+    share = 1.0 if times == "constant" else next(shares(os.getpid()))
     hashlib.pbkdf2_hmac("sha256", b"atoll", b"peers", max(1, round(ROUNDS * share)))
     return float(sum(bits))
 
 
-def lognormal(bits: tuple[int, ...]) -> float:
-    """Draw from a log-normal distribution of mean 1 and sigma 1, the same for the same string."""
-    digest = hashlib.sha256(bytes(bits)).digest()
-    first, second = (int.from_bytes(digest[at : at + 7], "big") / 2**56 for at in (0, 7))
-    normal = math.sqrt(-2 * math.log(1 - first)) * math.cos(2 * math.pi * second)
-    return min(math.exp(normal - 0.5), MOST)
+@cache
+def shares(process: int) -> Iterator[float]:
+    """Give times of mean 1 and sigma 1 of their logarithm, without end, in an order that differs by process."""
+    normal = NormalDist()
+    found = [math.exp(normal.inv_cdf((place + 0.5) / QUANTILES)) for place in range(QUANTILES)]
+    mean = sum(found) / QUANTILES
+    random.Random(process).shuffle(found)  # noqa: S311 - an order, no secret
+    return cycle([one / mean for one in found])
 
 
 def evaluations() -> int:
