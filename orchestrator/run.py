@@ -13,8 +13,10 @@ from typing import Any, Final
 from genome.errors import InputError
 from islands.host import HostPlan
 from islands.kinds.registry import resolve_kind
+from islands.kinds.trade import check_biology
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
+from islands.migration.channel import Channel
 from islands.tally import IslandSummary
 from orchestrator import archipelago as machine
 from orchestrator.backends.protocol import Backend, Deadlines, RunFailedError
@@ -69,13 +71,28 @@ def seconds_of(plan: Plan) -> dict[str, float]:
     Raises
     ------
     InputError
-        For whatever is wrong with their settings and the files that these name.
+        For whatever is wrong with their settings and the files that these name, and for a kind that cannot make use of
+        what channels bring.
     """
     groups = {spec.group: spec for spec in plan.islands}
-    return {
-        name: float(resolve_kind(spec.kind, spec.where("kind")).build(spec, time.perf_counter).seconds)
-        for name, spec in groups.items()
-    }
+    channels = _channels_into(plan)
+    seconds = {}
+    for name, spec in groups.items():
+        biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, time.perf_counter)
+        check_biology(biology, spec, channels.get(name, ()))
+        seconds[name] = float(biology.seconds)
+    return seconds
+
+
+def _channels_into(plan: Plan) -> dict[str, list[Channel]]:
+    """Give for each group of islands the channels of other kinds than migrants that reach one of it, by number."""
+    found: dict[str, set[Channel]] = {}
+    ends = [(edge.target, edge.channel) for edge in plan.edges]
+    ends += [(number, redrawn.channel) for redrawn in plan.redrawn for number, _ in redrawn.members]
+    for number, channel in ends:
+        if channel.kind != "migrants":
+            found.setdefault(plan.islands[number].group, set()).add(channel)
+    return {group: sorted(channels, key=lambda channel: channel.number) for group, channels in found.items()}
 
 
 def prepare(loaded: Loaded) -> tuple[Plan, dict[str, float]]:

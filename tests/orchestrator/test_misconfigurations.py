@@ -33,6 +33,15 @@ def without_partners() -> str:
     return json.dumps(data, indent=1)
 
 
+def into(kind: str, what: str, topology: bool = False) -> str:
+    data = trading(islands={"guest": {"kind": "traders:GuestKind"}, "taker": {"kind": f"traders:{kind}", "count": 2}})
+    data["channels"] = [{"kind": what, "from": "guest", "to": "taker", "name": "gift"}]
+    if topology:
+        data["channels"] = [{"kind": what, "topology": "random", "among": ["taker", "guest"], "name": "gift"}]
+        data["islands"]["guest"]["kind"] = f"traders:{kind}"
+    return json.dumps(data, indent=1)
+
+
 TWICE = """
 islands:
   north: {kind: "bits:BitsKind", fitness: {ones: {goal: maximise}}}
@@ -68,6 +77,21 @@ CASES = {
     ),
     "an island on no channel": (unreached(), "channels", "got south, which is on none; name it in 'among', or add"),
     "partners missing": (without_partners(), "islands.host.kind", "partners missing: add {kind: partners"),
+    "partners that a kind has no use for": (
+        into("HollowKind", "partners"), "islands.taker.kind", "expected a kind with evaluate_with, got 'traders:Hollow"
+    ),
+    "parts that a kind has no use for": (
+        into("HollowKind", "components"), "islands.taker.kind", "whose biology has no supplied; channel 'gift' brings"
+    ),
+    "parts that a kind cannot tell": (
+        into("HalfKind", "components"), "islands.taker.kind", "which takes components and whose biology has no componen"
+    ),
+    "forms that a kind has no use for": (
+        into("HollowKind", "surroundings"), "islands.taker.kind", "expected a kind with surrounded, got"
+    ),
+    "partners of drawn edges": (
+        into("HollowKind", "partners", topology=True), "islands.guest.kind", "expected a kind with evaluate_with, got"
+    ),
     "two islands of one name": (TWICE, "", "each key once, got 'north' again (line 3)"),
     "two islands of one name by count": (NUMBERED, "islands.north-1", "'north-1', a name that the islands of 'north'"),
 }  # fmt: skip

@@ -124,6 +124,29 @@ class SkinKind(BitsKind):
         return SkinBiology(spec, clock)
 
 
+class HollowKind(GuestKind):
+    """Says that it takes everything, and can make use of nothing."""
+
+    name: ClassVar[str] = "hollow"
+    takes: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "partners": ("word",), "components": ("part",), "surroundings": ("form",)
+    }  # fmt: skip
+
+    def build(self, spec: IslandSpec, clock: Clock) -> Any:
+        return BitsBiology(spec, clock)
+
+
+class HalfKind(HollowKind):
+    """Takes parts, and cannot say which its genotypes hold."""
+
+    name: ClassVar[str] = "half"
+
+    def build(self, spec: IslandSpec, clock: Clock) -> Any:
+        made = BitsBiology(spec, clock)
+        made.supplied = lambda parts: made
+        return made
+
+
 class Shorten:
     """An adapter of the tests' bit strings: cut or filled with zeros."""
 
