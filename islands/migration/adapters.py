@@ -42,12 +42,15 @@ class Adapter(Protocol):
     target: ClassVar[tuple[str, ...]]
 
     def build(self, source: IslandSpec, target: IslandSpec) -> Translate:
-        """Make the translation of encoded genotypes from one island to another; it may raise for one it cannot do.
+        """Make the translation of encoded genotypes from one island to another.
+
+        The translation may raise whatever it likes for a genotype that it cannot translate: that migrant is turned
+        away, with the reason in its row.
 
         Raises
         ------
         InputError
-            When the two islands do not suit.
+            When the two islands do not suit; nothing else is to be raised here.
         """
         ...
 
@@ -67,7 +70,8 @@ def build_adapter(name: str, source: IslandSpec, target: IslandSpec, where: str)
     Raises
     ------
     InputError
-        When there is none by that name, what is there is no adapter, or the two islands do not suit.
+        When there is none by that name, what is there is no adapter or makes no translation, or the two islands do not
+        suit.
     """
     found = find(name, where, "adapter", ADAPTERS, GROUP)
     adapter = found() if isinstance(found, type) else found
@@ -81,9 +85,13 @@ def build_adapter(name: str, source: IslandSpec, target: IslandSpec, where: str)
             got = f"'{name}', which translates {end} {' or '.join(kinds)}"
             raise InputError(where, f"an adapter {end} the kind '{kind}' of island {spec.name}", got)
     try:
-        return adapter.build(source, target)
+        made: object = adapter.build(source, target)
     except InputError as error:
         raise InputError(error.where or where, error.expected, error.got, error.remedy) from None
+    if not callable(made):
+        got = f"'{name}', whose build gives a {type(made).__name__}"
+        raise InputError(where, "an adapter that makes a translation", got, "give a function from text to text")
+    return made
 
 
 def adapters_into(

@@ -12,6 +12,7 @@ channel's kind:
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -79,7 +80,8 @@ class Channel:
     every
         It carries at the end of each epoch that this divides; migrants do not travel at the end of epoch 0.
     count, rate
-        How many travel on an edge at a time: a number, or with ``rate`` a share of the source's deme.
+        How many travel on an edge at a time: a number, or with ``rate`` a share of the source's deme. Fewer do where a
+        deme has no more members, as when some moved away on a channel before this one.
     select
         Which members emigrate.
     tournament
@@ -89,7 +91,8 @@ class Channel:
     accept
         ``always``, or ``better``: only if it is better than the member whose place it would take.
     move
-        Emigrants leave their deme instead of sending a copy.
+        Emigrants leave their deme instead of sending a copy. They are gone before later channels choose, and one that
+        its target turns away is in no deme any more.
     routing
         ``broadcast``: each edge carries. ``point``: one edge of each source and epoch, drawn at random, carries.
     trigger
@@ -121,8 +124,14 @@ class Channel:
         return epoch % self.every == 0 and (epoch > 0 or self.kind != "migrants")
 
     def size(self, population: int) -> int:
-        """Give how many travel on an edge from a deme of so many members: at least one."""
-        return self.count if self.rate is None else max(1, round(self.rate * population))
+        """Give how many travel on an edge from a deme of so many members.
+
+        A rate's share is rounded to the nearest number, half a member up, and is at least one: 0.5 of 5 are 3.
+        """
+        if self.rate is None:
+            return self.count
+        # As a decimal: 0.145 of 100 are 14.5, though a few bits less as a float.
+        return max(1, math.floor(round(self.rate * population, 9) + 0.5))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, final
 
@@ -12,6 +13,10 @@ from islands.individual import Individual
 from islands.kinds.protocol import Biology
 from islands.migration.channel import Channel
 from islands.streams import EpochStreams, Purpose
+
+
+ALIKE: Final = 1e-9
+"""Distances that differ by a smaller share are equal."""
 
 
 @final
@@ -39,14 +44,15 @@ class Crowd:
         return len(self.order)
 
     def apart(self) -> NDArray[np.float64]:
-        """Give the distances of all members from all, (n, n), 0 where the kind tells none."""
+        """Give the distances of all members from all, (n, n), 0 where the kind tells none that is a number."""
         if self._apart is None:
             size = len(self.order)
             self._apart = np.zeros((size, size))
             for place, one in enumerate(self.order):
                 for before in range(place):
                     found = self._biology.diversity((self.order[before].genotype, one.genotype))
-                    self._apart[place, before] = self._apart[before, place] = found or 0.0
+                    known = found is not None and math.isfinite(found)
+                    self._apart[place, before] = self._apart[before, place] = found if known else 0.0
         return self._apart
 
     def without(self, places: Sequence[int]) -> Crowd:
@@ -116,19 +122,26 @@ def diverse(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -
     """Choose those who are most different.
 
     First the member of the greatest mean distance from all; then, one by one, the one whose nearest of those chosen is
-    farthest away (Gonzalez 1985); of equals the better. Distances are what the kind calls the diversity of two.
+    farthest away (Gonzalez 1985); of equals the better. Distances are what the kind calls the diversity of two; those
+    within a billionth of the greatest one are equal to it.
     """
     del channel, streams
     if count == 0:
         return []
     apart = crowd.apart()
-    chosen = [int(apart.mean(axis=1).argmax())]
+    chosen = [_farthest(apart.mean(axis=1))]
     nearest = apart[chosen[0]].copy()
     while len(chosen) < count:
         nearest[chosen[-1]] = -1.0
-        chosen.append(int(nearest.argmax()))
+        chosen.append(_farthest(nearest))
         np.minimum(nearest, apart[chosen[-1]], out=nearest)
     return sorted(chosen)
+
+
+def _farthest(distances: NDArray[np.float64]) -> int:
+    """Give the first place of the greatest distance: sums of equal terms in another order are a few bits apart."""
+    greatest = float(distances.max())
+    return int((distances >= greatest - ALIKE * abs(greatest)).argmax())
 
 
 CHOOSERS: Final[Mapping[str, Choose]] = {

@@ -1,7 +1,7 @@
 """The gate where migrants stand: who is let in, and in whose place.
 
 Residents are those who were there before the epoch began: a packet of k takes k places. A free place is taken before
-anyone is replaced.
+anyone is replaced. One who moved here and is turned away has left its own deme already: it lives on in the log alone.
 """
 
 from __future__ import annotations

@@ -114,6 +114,25 @@ def test_the_most_diverse_are_far_from_all_and_then_from_each_other() -> None:
     assert drawn(deme(2, 1, 0), 2, 1, select="diverse") == {(0, 1): 1}
 
 
+def test_of_the_equally_distant_the_better_is_chosen_though_their_sums_are_rounded() -> None:
+    words = ("011001000110", "100111011101", "001110001010", "100011101110")
+    genotypes = [tuple(map(int, word)) for word in words]
+    apart = np.array([[sum(a != b for a, b in zip(x, y, strict=True)) for y in genotypes] for x in genotypes])
+    assert apart.sum(axis=1).tolist() == [21, 21, 19, 17]
+    means = (apart / 12).mean(axis=1)
+    assert means[0] < means[1]  # in floats they are not equal
+    for order in (genotypes, [genotypes[1], genotypes[0], *genotypes[2:]]):
+        assert drawn(deme(4, 3, 2, 1, genotypes=order), 1, 1, select="diverse") == {(0,): 1}
+
+
+def test_a_distance_that_is_no_number_is_none(monkeypatch) -> None:
+    isle = island()
+    monkeypatch.setattr(isle.biology, "diversity", lambda pair: float(pair[0][0] * pair[1][0]))
+    strange = [(0,), (1,), (math.inf,), (1,)]
+    crowd = Crowd(deme(4, 3, 2, 1, genotypes=strange), isle.biology)
+    assert emigrants(crowd, 3, Channel(0, "c", select="diverse"), EpochStreams(1, 0, 1)) == [0, 1, 3]
+
+
 def test_distances_are_worked_out_once_for_who_leaves_and_who_is_left(monkeypatch) -> None:
     isle, asked = island(), []
     monkeypatch.setattr(isle.biology, "diversity", lambda pair: asked.append(pair) or float(pair[0] != pair[1]))
@@ -152,6 +171,8 @@ def test_a_random_resident_goes_each_as_likely_and_a_tournament_loses_the_worst_
     agrees(places("tournament", deme(3, 2, 1, 0), 4000, tournament=3), expected)
 
 
-def test_a_rate_is_a_share_of_the_deme_and_at_least_one() -> None:
+def test_a_rate_is_a_share_of_the_deme_half_up_and_at_least_one() -> None:
+    assert [Channel(0, "c", rate=0.5).size(size) for size in (1, 2, 3, 5, 7, 9)] == [1, 1, 2, 3, 4, 5]
+    assert Channel(0, "c", rate=0.145).size(100) == 15
     assert [Channel(0, "c", rate=0.1).size(size) for size in (1, 12, 26, 200)] == [1, 1, 3, 20]
     assert math.isclose(Channel(0, "c", rate=1.0).size(7), 7)

@@ -142,3 +142,10 @@ class Inverted:
             return json.dumps([1 - gene for gene in genes])
 
         return translate
+
+
+class Idle(Inverted):
+    """An adapter that makes nothing."""
+
+    def build(self, source, target):
+        return None
