@@ -49,9 +49,9 @@ class Departures:
     """Makes the packets of one epoch's end.
 
     On a ``broadcast`` of copies the emigrants are chosen once and go the way of each edge that carries; those that move
-    are chosen edge by edge from who is left, and channels with a higher number choose from who is left after them, fewer
-    than their count where there are no more. The valid members alone are offered as components or surroundings: what
-    cannot stand can be no part of something else. What a kind fails to offer is left out, with a note.
+    are chosen edge by edge from who is left. Channels with a higher number choose from who is left after them, and send
+    fewer than their count where there are no more. The valid members alone are offered as components or surroundings:
+    what cannot stand can be no part of something else. What a kind fails to offer is left out, with a note.
 
     Parameters
     ----------

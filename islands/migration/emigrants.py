@@ -14,7 +14,6 @@ from islands.kinds.protocol import Biology
 from islands.migration.channel import Channel
 from islands.streams import EpochStreams, Purpose
 
-
 ALIKE: Final = 1e-9
 """Distances that differ by a smaller share are equal."""
 

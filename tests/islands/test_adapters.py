@@ -49,7 +49,7 @@ def test_resizing_genes_brings_them_under_the_ceiling(genes, length, ceiling) ->
         ),
         ("resise", (bits(), bits(1)), "an adapter, got 'resise'; did you mean 'resize'?"),
         ("json:loads", (bits(), bits(1)), "an adapter, got 'json:loads', a function without source, target, build"),
-        ("species:Idle", (bits(), bits(1)), "an adapter that makes a translation, got 'species:Idle', whose build gives"),
+        ("species:Idle", (bits(), bits(1)), "an adapter that makes a translation, got 'species:Idle', whose build"),
         ("species:Inverted", (surface(), bits(1)), "an adapter from the kind 'surface' of island isle-0, got"),
         ("species:Inverted", (bits(), surface(1)), "an adapter to the kind 'surface' of island isle-1, got"),
     ],
