@@ -3,13 +3,43 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from importlib.metadata import EntryPoint, entry_points
 
 from genome.errors import InputError
-from genome.settings import near
+from genome.mishaps import let_pass, one_line, told
+from genome.settings import describe, near
 
 IMPORT_PATH = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
+
+
+@contextmanager
+def guarded(where: str, expected: str, what: str) -> Iterator[None]:
+    """Tell whatever a plug-in raises before a run as bad input, in a line; ``sys.exit`` included.
+
+    Parameters
+    ----------
+    where
+        The place in the experiment, for messages.
+    expected, what
+        What is asked for, and what was found in its stead: "an adapter that can be built", "'shorten'".
+
+    Raises
+    ------
+    InputError
+        For whatever is raised within; one that names no place gets this one.
+    KeyboardInterrupt
+        On a Ctrl-C.
+    """
+    try:
+        yield
+    except InputError as error:
+        parts = (one_line(part) for part in (error.expected, error.got, error.remedy))
+        raise InputError(error.where or where, *parts) from None
+    except BaseException as error:
+        let_pass(error)
+        raise InputError(where, expected, f"{what}, which raised {told(error)}") from error
 
 
 def find(
@@ -47,12 +77,12 @@ def find(
     if name in installed.names:
         return _imported(installed[name], where, what)
     if ":" in name:
-        raise InputError(where, f"{_article(what)}'s name or an import path 'package.module:object'", f"'{name}'")
+        raise InputError(where, f"{_article(what)}'s name or an import path 'package.module:object'", describe(name))
     known = sorted({*registry, *installed.names})
     if name in later:
-        got, remedy = f"'{name}', which comes with a later version", f"known now: {', '.join(known)}"
+        got, remedy = f"{describe(name)}, which comes with a later version", f"known now: {', '.join(known)}"
         raise InputError(where, f"{_article(what)} that is built", got, remedy)
-    raise InputError(where, _article(what), f"'{name}'", near(name, [*known, *later]))
+    raise InputError(where, _article(what), describe(name), near(name, [*known, *later]))
 
 
 def find_function(
@@ -61,16 +91,18 @@ def find_function(
     """Find something that can be called; as :func:`find` otherwise."""
     found = find(name, where, what, registry, group, later)
     if not callable(found):
-        raise InputError(where, f"{_article(what)} that can be called", f"'{name}', {_article(type(found).__name__)}")
+        got = f"{describe(name)}, {_article(type(found).__name__)}"
+        raise InputError(where, f"{_article(what)} that can be called", got)
     return found
 
 
 def _imported(point: EntryPoint, where: str, what: str) -> object:
-    shown = point.value if point.name == point.value else f"{point.name} = {point.value}"
+    shown = describe(point.value if point.name == point.value else f"{point.name} = {point.value}")
     try:
         return point.load()
-    except Exception as error:  # a plug-in's module may raise anything while it is imported
-        got = f"'{shown}', which does not import ({type(error).__name__}: {error})"
+    except BaseException as error:
+        let_pass(error)
+        got = f"{shown}, which does not import ({told(error)})"
         remedy = "install it, or put its folder on PYTHONPATH" if isinstance(error, ImportError) else ""
         raise InputError(where, f"{_article(what)} that can be imported", got, remedy) from error
 

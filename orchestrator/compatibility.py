@@ -5,16 +5,18 @@ Everything that can be known of it is checked before a run starts.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager
 from importlib.metadata import entry_points
 from typing import Final, final
 
+from evaluators.plugins import find, guarded
 from genome.errors import InputError
 from genome.settings import describe
 from islands.kinds.protocol import Kind
 from islands.kinds.registry import resolve_kind
-from islands.kinds.trade import gives, needs, takes
+from islands.kinds.trade import gives, needs, takes, variation
 from islands.migration.adapters import ADAPTERS, GROUP, build_adapter
 from islands.migration.channel import Channel, ChannelKind, Edge
 from islands.migration.routes import Redrawn
@@ -41,7 +43,8 @@ class Compatibility:
 
     def needs(self, spec: IslandSpec) -> tuple[ChannelKind, ...]:
         """Give the kinds of channels that an island cannot do without."""
-        return needs(self._kind(spec), spec)
+        with _telling(spec, "needs"):
+            return needs(self._kind(spec), spec)
 
     def check(self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str) -> None:
         """Check one channel.
@@ -49,33 +52,43 @@ class Compatibility:
         Raises
         ------
         InputError
-            When two islands on it have nothing to exchange, or one of them is smaller than what is to travel.
+            When two islands on it have nothing to exchange, one of them is smaller than what is to travel, or its
+            adapter has nothing to translate.
         """
-        for source, target, channel in self._pairs(edges, redrawn):
+        if settings.adapter is not None:
+            find(settings.adapter, f"{where}.adapter", "adapter", ADAPTERS, GROUP)
+        pairs = list(self._pairs(edges, redrawn))
+        for source, target, channel in pairs:
             if channel.kind == "migrants":
                 self._check_species(settings, source, target, where)
             else:
                 self._check_trade(channel.kind, source, target, where)
             _check_size(channel, source, target, where)
-        self._check_pool(settings, edges, where)
+        if settings.adapter is not None and pairs and all(one.species == other.species for one, other, _ in pairs):
+            got = f"islands of '{pairs[0][0].species}' alone, which need none"
+            raise InputError(f"{where}.adapter", "islands of different species to adapt between", got, "remove the key")
+        self._check_pool(settings, edges, redrawn, where)
 
     def _pairs(self, edges: Sequence[Edge], redrawn: Redrawn | None) -> Iterator[Pair]:
         """Give the first pair of islands of each two groups that a channel joins."""
         seen: set[tuple[str, str]] = set()
+        groups = [spec.group for spec in self._islands]
         for edge in edges:
-            source, target = self._islands[edge.source], self._islands[edge.target]
-            if (source.group, target.group) not in seen:
-                seen.add((source.group, target.group))
-                yield source, target, edge.channel
+            if (pair := (groups[edge.source], groups[edge.target])) not in seen:
+                seen.add(pair)
+                yield self._islands[edge.source], self._islands[edge.target], edge.channel
         if redrawn is not None:
-            firsts = {self._islands[number].group: self._islands[number] for number, _ in reversed(redrawn.members)}
+            firsts = {groups[number]: self._islands[number] for number, _ in reversed(redrawn.members)}
+            several = Counter(groups[number] for number, _ in redrawn.members)
             for source in firsts.values():
                 for target in firsts.values():
-                    yield source, target, redrawn.channel
+                    if source is not target or several[source.group] > 1:
+                        yield source, target, redrawn.channel
 
     def _kind(self, spec: IslandSpec) -> Kind:
         if spec.kind not in self._kinds:
-            self._kinds[spec.kind] = resolve_kind(spec.kind, spec.where("kind"))
+            with _telling(spec):
+                self._kinds[spec.kind] = resolve_kind(spec.kind, spec.where("kind"))
         return self._kinds[spec.kind]
 
     def _check_species(self, settings: ChannelSettings, source: IslandSpec, target: IslandSpec, where: str) -> None:
@@ -85,39 +98,53 @@ class Compatibility:
             if kinds[0] != kinds[1]:
                 got = f"{pair} of the kinds '{kinds[0]}' and '{kinds[1]}'"
                 raise InputError(where, "islands of one kind in a species", got, "give them different 'species'")
+            if keys := self._unlike(source, target):
+                got = f"{pair}, whose genomes differ in {_told(keys, source, target)}"
+                remedy = f"give them one genome, or different 'species'{_or_adapters(self._suiting(source, target))}"
+                raise InputError(where, "islands of one genome in a species", got, remedy)
             return
         if settings.adapter is not None:
             self._check_adapter(settings.adapter, source, target, f"{where}.adapter")
             return
-        known = self._suiting(source, target, where)
-        remedy = "migrants travel within a species: give both the same genome, or the same 'species'"
-        if kinds[0] != kinds[1]:
-            remedy = "migrants travel within a species"
+        remedy = "migrants travel within a species"
+        if kinds[0] == kinds[1]:
+            remedy += ": give both the same "
+            remedy += "genome and 'species'" if self._unlike(source, target) else "'species'"
+        known = self._suiting(source, target)
         remedy += f", or set adapter: {' or '.join(known)}" if known else ""
         got = f"{pair}, {_difference(source, target, kinds)}"
         raise InputError(where, "islands of one species", got, remedy)
 
     def _check_adapter(self, name: str, source: IslandSpec, target: IslandSpec, where: str) -> None:
         try:
-            build_adapter(name, source, target, where)
+            _build(name, source, target, where)
         except InputError as error:
-            known = self._suiting(source, target, where)
+            known = self._suiting(source, target)
             remedy = f"these would do: {', '.join(known)}" if known else error.remedy
             raise InputError(error.where, error.expected, error.got, remedy) from None
 
-    def _suiting(self, source: IslandSpec, target: IslandSpec, where: str) -> list[str]:
-        """Give the names of adapters that would do between two islands."""
+    def _unlike(self, source: IslandSpec, target: IslandSpec) -> list[str]:
+        """Give the genome's keys in which two islands of a kind differ, and may not within a species."""
+        with _telling(source, "variation"):
+            harmless = variation(self._kind(source))
+        return [key for key in _differing(source, target) if key not in harmless]
+
+    def _suiting(self, source: IslandSpec, target: IslandSpec) -> list[str]:
+        """Give the names of adapters that would do between two islands; one that is broken would not."""
         found = []
         for name in sorted({*ADAPTERS, *entry_points(group=GROUP).names}):
             try:
-                build_adapter(name, source, target, where)
+                _build(name, source, target, "")
             except InputError:
                 continue
             found.append(name)
         return found
 
     def _check_trade(self, kind: ChannelKind, source: IslandSpec, target: IslandSpec, where: str) -> None:
-        given, taken = gives(self._kind(source), kind), takes(self._kind(target), kind)
+        with _telling(source, "gives"):
+            given = gives(self._kind(source), kind, source)
+        with _telling(target, "takes"):
+            taken = takes(self._kind(target), kind, target)
         if given and given in taken:
             return
         ends = f"{source.name} ('{source.kind}'), which gives {given or 'nothing'} to channels of kind {kind}, and "
@@ -126,13 +153,19 @@ class Compatibility:
             where, f"islands of which one gives {kind} that the other takes", ends, "change 'from' or 'to'"
         )
 
-    def _check_pool(self, settings: ChannelSettings, edges: Sequence[Edge], where: str) -> None:
-        """Refuse more pairings than there are partners shown."""
+    def _check_pool(
+        self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str
+    ) -> None:
+        """Refuse more pairings than there are partners shown, or ever can be where edges are drawn anew."""
         if settings.kind != "partners" or settings.pairing not in ("several", "random"):
             return
         shown: dict[int, int] = defaultdict(int)
         for edge in edges:
             shown[edge.target] += edge.channel.size(self._islands[edge.source].population)
+        if redrawn is not None:
+            # What a source showed is held until it shows others: in time each may have shown to each.
+            sizes = {number: redrawn.channel.size(self._islands[number].population) for number, _ in redrawn.members}
+            shown.update({number: sum(sizes.values()) - size for number, size in sizes.items()})
         for target, count in shown.items():
             if (settings.pairings or 1) > count:
                 expected = f"at most {count}, as many as are shown to {self._islands[target].name}"
@@ -149,16 +182,39 @@ def _check_size(channel: Channel, source: IslandSpec, target: IslandSpec, where:
             raise InputError(f"{where}.{key}", "at most a deme's members", got)
 
 
+def _telling(spec: IslandSpec, part: str = "") -> AbstractContextManager[None]:
+    """Tell whatever an island's kind raises as bad input."""
+    what = f"the {part} of {describe(spec.kind)}" if part else describe(spec.kind)
+    return guarded(spec.where("kind"), "an island kind", what)
+
+
+def _build(name: str, source: IslandSpec, target: IslandSpec, where: str) -> None:
+    """Build an adapter on trial."""
+    with guarded(where, f"an adapter from {source.name} to {target.name}", describe(name)):
+        build_adapter(name, source, target, where)
+
+
+def _or_adapters(known: Sequence[str]) -> str:
+    return f" and adapter: {' or '.join(known)}" if known else ""
+
+
+def _differing(source: IslandSpec, target: IslandSpec) -> list[str]:
+    """Give the keys in which the genome sections of two islands differ."""
+    keys = dict.fromkeys((*source.genome, *target.genome))
+    return [key for key in keys if source.genome.get(key) != target.genome.get(key)]
+
+
+def _told(keys: Sequence[str], source: IslandSpec, target: IslandSpec) -> str:
+    """Give keys of the genome section with both islands' values."""
+    ends = (source.genome, target.genome)
+    return ", ".join(f"{key} ({', '.join(describe(genome.get(key)) for genome in ends)})" for key in keys)
+
+
 def _difference(source: IslandSpec, target: IslandSpec, kinds: tuple[str, str]) -> str:
     """Say why two islands are of different species."""
     if kinds[0] != kinds[1]:
         return f"of the kinds '{kinds[0]}' and '{kinds[1]}'"
-    keys = [
-        key
-        for key in dict.fromkeys((*source.genome, *target.genome))
-        if source.genome.get(key) != target.genome.get(key)
-    ]
+    keys = _differing(source, target)
     if not keys:
         return "whose genomes are alike: they differ by 'species' alone"
-    told = (f"{key} ({describe(source.genome.get(key))}, {describe(target.genome.get(key))})" for key in keys)
-    return f"whose genomes differ in {', '.join(told)}"
+    return f"whose genomes differ in {_told(keys, source, target)}"

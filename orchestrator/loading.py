@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from evaluators.plugins import guarded
 from genome.errors import InputError
 from genome.settings import Path as KeyPath
 from genome.settings import describe, validated
@@ -133,9 +134,11 @@ def _merged(defaults: Mapping[str, Any], island: object) -> object:
 
 def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings:
     """Validate an island's genome and growth by its kind, write out their defaults, and name its species."""
-    kind = resolve_kind(island.kind, f"{source}: islands.{name}.kind")
-    genome = validated(kind.genome, island.genome, source, ("islands", name, "genome")).model_dump(mode="json")
-    growth = validated(kind.growth, island.growth, source, ("islands", name, "growth")).model_dump(mode="json")
+    where = f"{source}: islands.{name}.kind"
+    with guarded(where, "an island kind", describe(island.kind)):
+        kind = resolve_kind(island.kind, where)
+        genome = validated(kind.genome, island.genome, source, ("islands", name, "genome")).model_dump(mode="json")
+        growth = validated(kind.growth, island.growth, source, ("islands", name, "growth")).model_dump(mode="json")
     kept = island.algorithm.name == "generational" and island.algorithm.elitism == "keep"
     if kept and island.algorithm.elite >= island.population:
         where = f"{source}: islands.{name}.algorithm.elite"

@@ -10,7 +10,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Final
 
+from evaluators.plugins import guarded
 from genome.errors import InputError
+from genome.settings import describe
 from islands.host import HostPlan
 from islands.kinds.registry import resolve_kind
 from islands.kinds.trade import check_biology
@@ -78,9 +80,10 @@ def seconds_of(plan: Plan) -> dict[str, float]:
     channels = _channels_into(plan)
     seconds = {}
     for name, spec in groups.items():
-        biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, time.perf_counter)
-        check_biology(biology, spec, channels.get(name, ()))
-        seconds[name] = float(biology.seconds)
+        with guarded(spec.where("kind"), "an island kind that can be built", describe(spec.kind)):
+            biology = resolve_kind(spec.kind, spec.where("kind")).build(spec, time.perf_counter)
+            check_biology(biology, spec, channels.get(name, ()))
+            seconds[name] = float(biology.seconds)
     return seconds
 
 

@@ -136,6 +136,9 @@ class BitsBiology:
         """
         if len(text) != self._length:
             raise ValueError(f"{len(text)} bits in place of {self._length}")
+        # A number may have a sign, underscores between its digits, and digits of other scripts.
+        if text.count("0") + text.count("1") != len(text):
+            raise ValueError("a text that is not all zeros and ones")
         return int(text, 2)
 
     def evaluate(self, genotype: int) -> Evaluation:
@@ -185,8 +188,15 @@ class BitsKind:
     name: ClassVar[str] = "bits"
     genome: ClassVar[type[Settings]] = BitsGenome
     growth: ClassVar[type[Settings]] = BitsGrowth
-    gives: ClassVar[Mapping[str, str]] = {"partners": "bits"}
-    takes: ClassVar[Mapping[str, tuple[str, ...]]] = {"partners": ("bits",)}
+    variation: ClassVar[frozenset[str]] = frozenset({"crossover", "flip"})
+
+    def gives(self, spec: IslandSpec) -> Mapping[ChannelKind, str]:
+        """Give strings of the island's length to partners."""
+        return {"partners": f"bits of {spec.genome['length']}"}
+
+    def takes(self, spec: IslandSpec) -> Mapping[ChannelKind, tuple[str, ...]]:
+        """Take partners of the island's own length: strings of different lengths do not agree or disagree."""
+        return {"partners": (f"bits of {spec.genome['length']}",)}
 
     def needs(self, spec: IslandSpec) -> tuple[ChannelKind, ...]:
         """Give ``partners`` where agreement with them is a goal."""

@@ -152,8 +152,10 @@ class Offering(Protocol[G_contra]):
 class Kind(Protocol):
     """An island kind: the models of its settings, and the maker of its biology.
 
-    A kind may have three attributes more, which say what channels of other kinds than ``migrants`` may join it (see
-    :mod:`islands.kinds.trade`): ``gives`` and ``takes``, from a channel's kind to names of what travels, and ``needs``.
+    A kind may have more attributes (see :mod:`islands.kinds.trade`). Three say what channels of other kinds than
+    ``migrants`` may join it: ``gives`` and ``takes``, from a channel's kind to names of what travels, and ``needs``;
+    each may be a method that gives it for an island. ``variation`` names the keys of ``genome`` that may differ within
+    a species.
 
     Attributes
     ----------

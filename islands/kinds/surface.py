@@ -203,6 +203,7 @@ class SurfaceKind:
     name: ClassVar[str] = "surface"
     genome: ClassVar[type[Settings]] = Genr8Genome
     growth: ClassVar[type[Settings]] = SurfaceIslandGrowth
+    variation: ClassVar[frozenset[str]] = frozenset({"crossover", "gene_mutation"})
 
     def build(self, spec: IslandSpec, clock: Clock) -> SurfaceBiology:
         """Load the grammar, the environment and the criteria."""

@@ -9,9 +9,8 @@ from operator import index
 from pathlib import Path
 from typing import Any, Final, cast
 
-from evaluators.plugins import find_function
+from evaluators.plugins import find_function, guarded
 from genome.errors import InputError
-from genome.mishaps import told
 from genome.settings import Settings, describe, validated
 from islands.kinds.protocol import Keep
 from orchestrator.topology.protocol import FromFile, Ground, Link, Parameters, Topology, located
@@ -70,12 +69,14 @@ def with_parameters(name: str, parameters: Parameters, where: str) -> Settings |
     if isinstance(found, type) and issubclass(found, Settings):
         source, separator, key = where.rpartition(": ")
         return validated(found, parameters, source if separator else where, tuple(key.split(".")) if separator else ())
-    try:
-        inspect.signature(found).bind(2, **parameters)
-    except TypeError as error:
-        raise InputError(where, f"parameters that '{name}' takes", str(error)) from None
-    except ValueError:  # a function of C without a signature
-        pass
+    with guarded(where, "a topology", describe(name)):
+        try:
+            inspect.signature(found).bind(2, **parameters)
+        except TypeError as error:
+            got = str(error).removeprefix("got ")
+            raise InputError(where, f"parameters that {describe(name)} takes", got) from None
+        except ValueError:  # a function of C without a signature
+            pass
     simple: Simple = partial(found, **parameters)
     return simple
 
@@ -100,14 +101,12 @@ def links_of(name: str, parameters: Parameters, ground: Ground, where: str) -> l
         When there is no such topology, it does not fit the islands, or a plug-in's gives edges that cannot be.
     """
     topology: object = with_parameters(name, parameters, where)
-    lay = topology.links if isinstance(topology, Topology) else partial(_simply, cast("Simple", topology))
     try:
-        return sorted(lay(ground)) if name in TOPOLOGIES else _checked(name, lay(ground), ground, where)
+        with guarded("", f"a topology of {ground.count} islands", describe(name)):
+            lay = topology.links if isinstance(topology, Topology) else partial(_simply, cast("Simple", topology))
+            return sorted(lay(ground)) if name in TOPOLOGIES else _checked(name, lay(ground), ground, where)
     except InputError as error:
         raise error if error.where.startswith(where) else located(error, where) from None
-    except Exception as error:  # a plug-in may raise anything
-        got = f"'{name}', which raised {told(error)}"
-        raise InputError(where, f"a topology of {ground.count} islands", got) from error
 
 
 def edges_of(name: str, count: int, where: str, **parameters: Any) -> list[tuple[int, int]]:  # noqa: ANN401
@@ -134,12 +133,14 @@ def _checked(name: str, given: Sequence[Link], ground: Ground, where: str) -> li
             source, target, weight = index(edge.source), index(edge.target), edge.weight
             link = Link(source, target, weight if weight is None else float(weight))
         except (TypeError, ValueError):
-            got = f"'{name}' with {describe(tuple(edge))}"
+            got = f"{describe(name)} with {describe(tuple(edge))}"
             raise InputError(where, "edges: two places, and a weight if need be", got) from None
         inside = 0 <= source < ground.count and 0 <= target < ground.count
         if source == target or not inside or not 0 <= (1.0 if link.weight is None else link.weight) <= 1:
-            got = f"'{name}' with {source} -> {target}"
+            got = f"{describe(name)} with {source} -> {target}"
             got += "" if link.weight is None else f" of weight {link.weight}"
             raise InputError(where, f"edges between two of {ground.count} islands", got)
-        links.setdefault((source, target), link)
+        if (source, target) in links:
+            raise InputError(where, "each edge once", f"{describe(name)} with {source} -> {target} again")
+        links[source, target] = link
     return [links[ends] for ends in sorted(links)]

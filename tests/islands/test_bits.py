@@ -18,6 +18,7 @@ from islands.individual import Evaluation
 from islands.kinds.bits import BitsBiology, BitsGrowth, BitsKind, leading_ones, lolz, ones, trap
 from islands.kinds.protocol import Biology, Kind, Symbiotic
 from islands.kinds.registry import resolve_kind
+from islands.kinds.trade import gives, takes
 from islands.migration.channel import Migrant
 
 
@@ -36,7 +37,10 @@ def test_it_is_a_kind_by_name_and_its_biology_has_partners() -> None:
     assert isinstance(kind, Kind)
     assert isinstance(biology(), Biology)
     assert isinstance(biology(), Symbiotic)
-    assert kind.gives["partners"] in kind.takes["partners"]
+    lengths = [spec(genome={"length": length}) for length in (12, 12, 16)]
+    offered = [gives(kind, "partners", one) for one in lengths]
+    assert [one in takes(kind, "partners", lengths[0]) for one in offered] == [True, True, False]
+    assert gives(kind, "components", lengths[0]) == ""
 
 
 @given(st.text("01", min_size=12, max_size=12))
@@ -70,9 +74,11 @@ def test_texts_read_back(number) -> None:
     assert made.decode(made.encode(number)) == number
 
 
-@pytest.mark.parametrize("text", ["", "01", "2" * 12, "0" * 13])
+@pytest.mark.parametrize(
+    "text", ["", "01", "2" * 12, "0" * 13, "-00000000001", "1_1_1_1_1_11", " 0000000001 ", "\u0661" * 12]
+)
 def test_a_text_of_another_species_is_no_genotype(text) -> None:
-    with pytest.raises(ValueError, match=r"bits in place of 12|invalid literal"):
+    with pytest.raises(ValueError, match=r"bits in place of 12|not all zeros and ones"):
         biology().decode(text)
 
 
