@@ -51,6 +51,7 @@ _PLAIN = {
     "finite_number": "a finite number",
     "too_short": "at least {min_length} of them",
     "too_long": "at most {max_length} of them",
+    "string_too_short": "a text that is not empty",
     "string_too_long": "at most {max_length} characters",
     "string_pattern_mismatch": "a name of letters, digits and . _ -, that begins with a letter or digit",
 }

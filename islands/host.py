@@ -417,8 +417,14 @@ def _strangers(plan: HostPlan) -> Mapping[int, Sequence[tuple[str, IslandSpec]]]
     known = {spec.number: spec for spec in (*plan.islands, *plan.foreign)}
     pairs = [(edge.target, edge.adapter, edge.source) for edge in plan.edges if edge.adapter]
     for channel in plan.redrawn:
-        members = [number for number, _ in channel.members if channel.adapter]
-        pairs.extend((target, channel.adapter, source) for target in members for source in members if source != target)
+        species = channel.species or range(len(channel.members))  # without, each is as of its own: all need it
+        members = [(number, kin) for (number, _), kin in zip(channel.members, species, strict=True) if channel.adapter]
+        pairs.extend(
+            (target, channel.adapter, source)
+            for target, kin in members
+            for source, other in members
+            if source != target and kin != other
+        )
     found: dict[int, list[tuple[str, IslandSpec]]] = defaultdict(list)
     here = {spec.number for spec in plan.islands}
     for target, adapter, source in dict.fromkeys(pairs):

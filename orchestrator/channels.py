@@ -157,6 +157,10 @@ def completed(channel: ChannelSettings, where: str, epoch: int) -> ChannelSettin
     changes: dict[str, Any] = {
         key: value for key, value in DEFAULTS[channel.kind].items() if getattr(channel, key) is None
     }
+    if channel.weight == 0:
+        raise InputError(
+            f"{where}.weight", "a probability above 0", "0, by which it never carries", "remove the channel"
+        )
     if channel.count is not None and channel.rate is not None:
         raise InputError(f"{where}.rate", "either 'count' or 'rate'", "both", "remove one of them")
     if channel.count is None and channel.rate is None:

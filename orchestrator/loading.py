@@ -18,6 +18,7 @@ from genome.yaml import load_yaml
 from islands.kinds.registry import resolve_kind
 from orchestrator.channels import completed
 from orchestrator.experiment import Experiment, IslandDefaults, IslandSettings
+from orchestrator.idle import idle
 from orchestrator.members import lonely
 from orchestrator.overrides import apply_overrides, parse_override
 
@@ -82,7 +83,7 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
         changed.setdefault("name", re.sub(r"[^A-Za-z0-9_-]+", "-", path.name.split(".")[0]).strip("-_") or "run")
         notes = ["checkpoint: accepted, but this version writes no checkpoints yet"] if "checkpoint" in changed else []
         experiment = _resolved(changed, source)
-        notes.extend(lonely(experiment, source))
+        notes.extend((*lonely(experiment, source), *idle(experiment, source)))
         return Loaded(experiment, source, path.resolve().parent, tuple(notes), locate)
     except InputError as error:
         raise locate(error) from None

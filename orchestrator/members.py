@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from genome.errors import InputError
-from genome.settings import near
+from genome.settings import describe, near
 from orchestrator.channels import ChannelSettings
 from orchestrator.experiment import Experiment
 
@@ -26,14 +26,15 @@ def island_names(experiment: Experiment) -> list[tuple[str, str]]:
     return names
 
 
-def numbers_of(names: Sequence[str], islands: Names, where: str) -> list[int]:
-    """Give the numbers of islands by name, or by the name of their group, each once, in the order named.
+def numbers_of(given: str | Sequence[str], islands: Names, where: str) -> list[int]:
+    """Give the numbers of islands by name, or by the name of their group, in the order named.
 
     Raises
     ------
     InputError
-        When none is of such a name.
+        When none is of such a name, or one is named twice: by itself, or as one of its group.
     """
+    names = [given] if isinstance(given, str) else given
     by_name: dict[str, list[int]] = {}
     for number, (group, name) in enumerate(islands):
         for key in dict.fromkeys((group, name)):
@@ -41,8 +42,15 @@ def numbers_of(names: Sequence[str], islands: Names, where: str) -> list[int]:
     for name in names:
         if name not in by_name:
             known = list(dict.fromkeys([*(group for group, _ in islands), *(name for _, name in islands)]))
-            raise InputError(where, "an island of the experiment", f"'{name}'", near(name, known))
-    return list(dict.fromkeys(number for name in names for number in by_name[name]))
+            raise InputError(where, "an island of the experiment", describe(name), near(name, known))
+    numbers: dict[int, str] = {}
+    for name in names:
+        for number in by_name[name]:
+            if number in numbers:
+                got = f"{islands[number][1]} twice, as {describe(numbers[number])} and as {describe(name)}"
+                raise InputError(where, "islands or groups, each once", got, "remove one of them")
+            numbers[number] = name
+    return list(numbers)
 
 
 def members_of(channel: ChannelSettings, islands: Names, where: str) -> list[int]:
@@ -55,11 +63,9 @@ def members_of(channel: ChannelSettings, islands: Names, where: str) -> list[int
     """
     if channel.among is None:
         return list(range(len(islands)))
-    among = [channel.among] if isinstance(channel.among, str) else channel.among
-    if len(set(among)) < max(len(among), 1):
-        got = "none" if not among else f"{', '.join(among)}"
-        raise InputError(f"{where}.among", "islands or groups, each once", got, "without 'among' it is all islands")
-    return numbers_of(among, islands, f"{where}.among")
+    if not channel.among:
+        raise InputError(f"{where}.among", "an island or a group", "none", "without 'among' it is all islands")
+    return numbers_of(channel.among, islands, f"{where}.among")
 
 
 def lonely(experiment: Experiment, source: str) -> tuple[str, ...]:

@@ -127,6 +127,9 @@ class _Wiring:
             adapter = _adapter(settings, one, other)
             carries = settings.weight if weight is None else weight
             edges.append(Edge(channel, source, target, one.name, other.name, carries, adapter))
+        if edges and not any(edge.weight for edge in edges):
+            got = "0 on each edge, by which it never carries"
+            raise InputError(f"{where}.topology", "an edge with a weight above 0", got, "remove the channel")
         return Wired(settings, where, channel, tuple(members), frozenset(ends), tuple(edges))
 
     def _anew(
@@ -149,10 +152,9 @@ class _Wiring:
         names = [(spec.group, spec.name) for spec in self.islands]
         sides = []
         for key, given in (("from", settings.source), ("to", settings.target)):
-            listed = [given] if isinstance(given, str) else list(given or ())
-            if not listed:
+            if not given:
                 raise InputError(f"{where}.{key}", "an island or a group", "none", "name one")
-            sides.append(numbers_of(listed, names, f"{where}.{key}"))
+            sides.append(numbers_of(given, names, f"{where}.{key}"))
         sources, targets = sides
         if settings.join == "matching":
             if len(sources) != len(targets):
