@@ -13,6 +13,9 @@ from islands.spec import IslandSpec
 Record = dict[tuple[int, int], list[tuple[int, int, int]]]
 """For an island's number and an epoch, the packets that it took in: channel, source, epoch sent."""
 
+Sizes = dict[tuple[int, int], list[tuple[int, int, int, int]]]
+"""The same with how many each packet held: which of the travellers of one epoch came in which packet."""
+
 
 def arrivals_detail(packets: Sequence[Packet], edges: Iterable[Edge], before: int) -> dict[str, Any]:
     """Give the detail of an ``arrivals`` event.
@@ -28,28 +31,33 @@ def arrivals_detail(packets: Sequence[Packet], edges: Iterable[Edge], before: in
 
     Returns
     -------
-    Under ``packets`` channel, source and epoch of each; under ``without`` the names of the channels that carried at the
-    end of the epoch before, and of which nothing came.
+    Under ``packets`` channel, source, epoch and number of travellers of each; under ``without`` the names of the
+    channels that carried at the end of the epoch before, and of which nothing came.
     """
     came = {packet.channel for packet in packets}
     silent = {edge.channel.name: None for edge in edges if edge.channel.number not in came}
     carried = {edge.channel.name for edge in edges if edge.channel.carries(before)}
     return {
-        "packets": [(packet.channel, packet.source, packet.epoch) for packet in packets],
+        "packets": [(one.channel, one.source, one.epoch, len(one.migrants)) for one in packets],
         "without": [name for name in silent if name in carried],
     }
 
 
 def recorded_arrivals(log: Path, islands: Iterable[IslandSpec]) -> Record:
-    """Read the ``arrivals`` events of some islands from a run's ``log`` folder."""
+    """Read from a run's ``log`` folder what some islands took in."""
+    return {place: [mark[:3] for mark in marks] for place, marks in recorded_sizes(log, islands).items()}
+
+
+def recorded_sizes(log: Path, islands: Iterable[IslandSpec]) -> Sizes:
+    """Read the ``arrivals`` events of some islands from a run's ``log`` folder; of other schedules there are none."""
     import pyarrow.parquet as pq
 
     numbers = {spec.name: spec.number for spec in islands}
-    record: Record = {}
+    record: Sizes = {}
     for path in sorted((log / "events").glob("*.parquet")):
         table = pq.read_table(path, columns=["island", "epoch", "kind", "detail"], filters=[("kind", "=", "arrivals")])
         for row in table.to_pylist():
             if row["island"] in numbers:
-                marks = [(channel, source, epoch) for channel, source, epoch in json.loads(row["detail"])["packets"]]
-                record[numbers[row["island"]], row["epoch"]] = marks
+                packets = json.loads(row["detail"])["packets"]
+                record[numbers[row["island"]], row["epoch"]] = [(*mark,) for mark in packets]
     return record

@@ -21,7 +21,11 @@ class Held(NamedTuple):
 
 
 class Past(NamedTuple):
-    """The archive of one channel of partners: the best one shown in each epoch, the newest first."""
+    """The archive of one channel of partners: the best one shown in each epoch, the newest first.
+
+    One id may be there several times, each time as it was shown then. There is one more than the channel's pairing
+    says: the newest is as a rule the best one shown now, which is no past one yet.
+    """
 
     channel: int
     travellers: tuple[Migrant, ...]
@@ -93,9 +97,9 @@ def taken_in(holdings: Holdings, channel: Channel, packet: Packet) -> tuple[Hold
 
 
 def archived(holdings: Holdings, channel: Channel, shown: Iterable[Migrant]) -> Holdings:
-    """Let the best of those that a channel showed in this epoch join its archive, unless it is there.
+    """Let the best of those that a channel showed in this epoch join its archive, unless it is there as it is now.
 
-    The archive holds as many as the channel's pairing says; the oldest go first.
+    The oldest go first, when there is one more than the channel's pairing says; see :class:`Past`.
     """
     size = channel.pairing.archive if channel.pairing is not None else 0
     best = min(shown, key=merit, default=None)
@@ -103,14 +107,17 @@ def archived(holdings: Holdings, channel: Channel, shown: Iterable[Migrant]) -> 
         return holdings
     archives = {one.channel: one.travellers for one in holdings.archives}
     before = archives.get(channel.number, ())
-    if best.id in {one.id for one in before}:
+    if any((one.id, one.text) == (best.id, best.text) for one in before):
         return holdings
-    archives[channel.number] = (best, *before)[:size]
+    archives[channel.number] = (best, *before)[: size + 1]
     return holdings._replace(archives=tuple(Past(number, archives[number]) for number in sorted(archives)))
 
 
 def pool(holdings: Holdings, channel: int) -> tuple[Migrant, ...]:
-    """Give all partners that a channel's sources show, best first; one shown by several sources once."""
+    """Give all partners that a channel's sources show, best first.
+
+    One shown by several sources is there once, as the source shows it where it is the fittest, of equals the first.
+    """
     shown = sorted((one for held in holdings.partners if held.channel == channel for one in held.travellers), key=merit)
     found: dict[int, Migrant] = {}
     for one in shown:

@@ -53,7 +53,8 @@ class Sides(NamedTuple):
     pairing
         Of the first channel: how the pairings' scores become one.
     key
-        Equal where members are paired alike.
+        Equal where members are paired alike: with the same ones, as they are shown now. What one shows may change while
+        its id stays, as when it hangs on what surrounds it.
     """
 
     sides: tuple[Side, ...]
@@ -85,9 +86,9 @@ def sides_of(channels: Sequence[Channel], holdings: Holdings, streams: EpochStre
     meaning: list[Any] = [first.score]
     for channel, side in zip(channels, sides, strict=True):
         # Who is drawn does not hang on the order of those drawn from.
-        ids = [one.id for one in side.partners]
+        who = [(one.id, hashlib.sha256(one.text.encode(errors="surrogatepass")).hexdigest()) for one in side.partners]
         meaning.append(
-            [channel.number, (channel.pairing or USUAL).scheme, side.drawn, sorted(ids) if side.drawn else ids]
+            [channel.number, (channel.pairing or USUAL).scheme, side.drawn, sorted(who) if side.drawn else who]
         )
     return Sides(tuple(sides), first, hashlib.sha256(json.dumps(meaning).encode()).hexdigest())
 
@@ -101,7 +102,7 @@ def _side(channel: Channel, shown: tuple[Migrant, ...], holdings: Holdings, stre
     if pairing.scheme == "best":
         return Side(channel.number, shown[:1], 0)
     past = [one for old in holdings.archives if old.channel == channel.number for one in old.travellers]
-    past = [one for one in past if one.id != shown[0].id]
+    past = [one for one in past if (one.id, one.text) != (shown[0].id, shown[0].text)][: pairing.archive]
     wanted = min(pairing.count - 1, len(past))
     places: list[int] = list(range(wanted))
     if 0 < wanted < len(past):

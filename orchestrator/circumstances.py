@@ -1,47 +1,35 @@
 """What individuals of a log were scored in: the forms around them, and the partners that they were paired with.
 
-An island's surroundings and partners are no columns of their own; they follow from who arrived, which the log tells. So
-the circumstances of any epoch can be made again, and an individual scored as it was.
+An island's surroundings and partners are no columns of their own; they follow from who arrived, which the log tells
+(:mod:`orchestrator.history`). So what an island held in any epoch can be made again, by the functions that it made it
+with, and an individual scored as it was. What one shows may hang on what surrounds it: everyone is made again as it
+was shown then, among the forms of the island and the epoch that it was sent from.
+
+Parts are left aside: a genotype carries its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Final, NamedTuple, TypeVar, final
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from typing import Any, Final, final
 
-from genome.errors import InputError
 from islands.context import Context, Contexts
-from islands.holdings import NOTHING, Held, Holdings
-from islands.individual import Evaluation
-from islands.kinds.protocol import Biology, Offering
-from islands.migration.channel import Channel, ChannelKind, Migrant
+from islands.holdings import NOTHING, Holdings, archived, taken_in
+from islands.individual import Evaluation, merit
+from islands.kinds.protocol import Biology, Offering, Situated
+from islands.migration.channel import Channel, ChannelKind, Migrant, Packet
 from islands.migration.routes import Routes
-from islands.pairings import combined
+from islands.pairings import Side, Sides, combined, sides_of
 from islands.scoring import scored, scored_with
 from islands.spec import IslandSpec
 from islands.streams import EpochStreams
 from orchestrator.folder import RunFolder
+from orchestrator.history import Came, History, Parcel, lacking
 from orchestrator.plan import Plan
-from orchestrator.query import ask
 
-K = TypeVar("K")
-V = TypeVar("V")
-
-CAME: Final = """
-    select channel, source, epoch, id, fitness from migrations
-    where kind = '{kind}' and target = '{island}' and epoch <= {epoch}
-"""
-"""In the log's own order, which is that of arrival."""
-
-
-class Came(NamedTuple):
-    """One that arrived: on which channel, from which island, at the start of which epoch, its id and fitness there."""
-
-    channel: str
-    source: str
-    epoch: int
-    id: int
-    fitness: float | None
+Marks = tuple[tuple[str, str, int], ...]
+"""Packets of one island: channel, source, and the epoch at whose end each was sent."""
 
 
 @final
@@ -56,18 +44,26 @@ class Circumstances:
         Its islands and edges.
     seed
         The run's seed.
+    late
+        As :class:`~orchestrator.history.History` takes it.
     biology
         Gives the biology of an island that holds nothing, by its name.
     """
 
-    def __init__(self, folder: RunFolder, plan: Plan, seed: int, biology: Callable[[str], Biology[Any]]) -> None:
-        self._log: Final = folder.log
+    def __init__(
+        self, folder: RunFolder, plan: Plan, seed: int, late: bool, biology: Callable[[str], Biology[Any]]
+    ) -> None:
+        channels = [edge.channel for edge in plan.edges] + [redrawn.channel for redrawn in plan.redrawn]
+        self._channels: Final = {channel.name: channel for channel in channels}
+        numbers = {name: channel.number for name, channel in self._channels.items()}
+        self._history: Final = History(folder.log, plan.islands, numbers, late)
         self._specs: Final[dict[str, IslandSpec]] = {spec.name: spec for spec in plan.islands}
         self._routes: Final = Routes(plan.edges, plan.redrawn, seed)
         self._seed: Final = seed
         self._biology: Final = biology
-        self._made: Final[dict[tuple[str, int], Context[Any]]] = {}
-        self._partners: Final[dict[tuple[str, int], dict[tuple[str, int], Migrant]]] = {}
+        self._made: Final[dict[tuple[str, Marks], Context[Any]]] = {}
+        self._texts: Final[dict[tuple[str, Marks, ChannelKind, int], str]] = {}
+        self._companies: Final[dict[tuple[str, int], Sides | None]] = {}
 
     def biology(self, island: str, epoch: int) -> Biology[Any]:
         """Give the biology of an island in the surroundings that it had in an epoch."""
@@ -75,92 +71,125 @@ class Circumstances:
         return found
 
     def score(self, island: str, epoch: int, genotype: str, partners: Sequence[int]) -> Evaluation:
-        """Score a genotype as an island did in an epoch, with the partners of its pairings, pairing by pairing."""
+        """Score a genotype as an island did in an epoch, with the partners of its pairings, pairing by pairing.
+
+        Raises
+        ------
+        InputError
+            When the log does not have what it was scored in.
+        """
         context = self._context(island, epoch)
         decoded = context.biology.decode(genotype)
-        channels = self._channels(island, "partners")
-        if not partners or context.symbiotic is None or not channels:
+        if not partners or context.symbiotic is None:
             return scored(context.biology, decoded)
-        shown = self._shown(island, epoch)
+        company = self._company(island, epoch)
+        if company is None:
+            raise lacking(partners[0])
         found = []
-        for place in range(0, len(partners), len(channels)):
-            pairing = zip(channels, partners[place : place + len(channels)], strict=True)
-            together = tuple(_known(shown, (channel.name, one), one) for channel, one in pairing)
-            found.append(scored_with(context.symbiotic, decoded, together))
-        first = channels[0].pairing
-        assert first is not None, "a channel of partners has a pairing"
-        return combined(found, first)
+        for pairing, place in enumerate(range(0, len(partners), len(company.sides))):
+            together = zip(company.sides, partners[place : place + len(company.sides)], strict=True)
+            chosen = tuple(_partner(side, pairing, identity) for side, identity in together)
+            found.append(scored_with(context.symbiotic, decoded, chosen))
+        return combined(found, company.pairing)
 
-    def _channels(self, island: str, kind: ChannelKind) -> list[Channel]:
-        return [one for one in self._routes.channels_into(self._specs[island].number) if one.kind == kind]
+    # -- surroundings --------------------------------------------------------------------------------------------
 
     def _context(self, island: str, epoch: int) -> Context[Any]:
-        """Give the context of an island in an epoch, its partners and parts aside."""
-        if (island, epoch) not in self._made:
-            channels = self._routes.channels_into(self._specs[island].number)
-            held = self._surroundings(island, epoch) if self._channels(island, "surroundings") else NOTHING
-            streams = EpochStreams(self._seed, self._specs[island].number, epoch)
-            self._made[island, epoch] = Contexts(self._biology(island), channels).of(held, streams)
-        return self._made[island, epoch]
+        """Give the context of an island in an epoch, its partners and parts aside.
 
-    def _surroundings(self, island: str, epoch: int) -> Holdings:
-        """Give the forms that an island held in an epoch: of each source those that came last."""
-        channels = {one.name: one for one in self._channels(island, "surroundings")}
-        came: dict[tuple[int, int], list[Came]] = {}
-        for one in self._came(island, epoch, "surroundings"):
-            key = channels[one.channel].number, self._specs[one.source].number
-            before = came.setdefault(key, [])
-            came[key] = [*before, one] if before and before[0].epoch == one.epoch else [one]
-        held = []
-        for (number, source), forms in sorted(came.items()):
-            # Where several packets of one source came at once, the last of them counts.
-            most = channels[forms[0].channel].size(self._specs[forms[0].source].population)
-            last = {one.id: one for one in forms[-most:]}
-            held.append(Held(number, source, self._travellers(list(last.values()), "surroundings")))
-        return Holdings(surroundings=tuple(held))
+        It may hang on that of another island in an epoch before, and so on: those are made first, the earliest before
+        all others.
+        """
+        pending = [(island, epoch)]
+        while pending:
+            name, then = pending[-1]
+            around = self._around(name, then)
+            key = name, _marks(around)
+            before = [] if key in self._made else [(one.source, one.sent) for one in around]
+            before = [(source, sent) for source, sent in before if self._key(source, sent) not in self._made]
+            if before:
+                pending += before
+                continue
+            if key not in self._made:
+                self._made[key] = self._among(name, around)
+            pending.pop()
+        return self._made[self._key(island, epoch)]
 
-    def _shown(self, island: str, epoch: int) -> dict[tuple[str, int], Migrant]:
-        """Give by channel and id how partners were shown to an island last; of several sources by the best."""
-        if (island, epoch) in self._partners:
-            return self._partners[island, epoch]
-        shown: dict[tuple[str, int], Came] = {}
-        for one in self._came(island, epoch, "partners"):
-            before = shown.get((one.channel, one.id))
-            worse = before is not None and before.epoch == one.epoch and not _better(one, before)
-            if not worse:
-                shown[one.channel, one.id] = one
-        found = dict(zip(shown, self._travellers(list(shown.values()), "partners"), strict=True))
-        self._partners[island, epoch] = found
-        return found
+    def _around(self, island: str, epoch: int) -> list[Parcel]:
+        """Give the packets whose forms an island had around it in an epoch."""
+        biology: object = self._biology(island)
+        return self._history.last(island, "surroundings", epoch) if isinstance(biology, Situated) else []
 
-    def _came(self, island: str, epoch: int, kind: ChannelKind) -> list[Came]:
-        sql = CAME.format(kind=kind, island=island, epoch=int(epoch))
-        return [Came(*row) for row in ask(self._log, sql).rows]
+    def _key(self, island: str, epoch: int) -> tuple[str, Marks]:
+        return island, _marks(self._around(island, epoch))
 
-    def _travellers(self, came: Sequence[Came], kind: ChannelKind) -> tuple[Migrant, ...]:
-        """Give those who came as they travelled: with what their sources offered of them then."""
-        ids = ", ".join(str(one.id) for one in came)
-        genotypes = ask(self._log, f"select id, genotype, scores, error from individuals where id in ({ids})")  # noqa: S608
-        known = {identity: rest for identity, *rest in genotypes.rows}
-        found = []
-        for one in came:
-            text, scores, error = _known(known, one.id, one.id)
-            # They left at the end of the epoch before (with the schedule async perhaps earlier, among other forms).
-            source = self.biology(one.source, one.epoch - 1)
-            offering: object = source
+    def _among(self, island: str, around: Sequence[Parcel]) -> Context[Any]:
+        held = NOTHING
+        for parcel in around:
+            held = self._taken(held, island, parcel, "surroundings")
+        return Contexts(self._biology(island), ()).among(held)
+
+    # -- partners ------------------------------------------------------------------------------------------------
+
+    def _company(self, island: str, epoch: int) -> Sides | None:
+        """Give the partners that an island paired its members with in an epoch, or drew from for each of them."""
+        if (island, epoch) not in self._companies:
+            number = self._specs[island].number
+            channels = [one for one in self._routes.channels_into(number) if one.kind == "partners"]
+            held = NOTHING
+            for channel in channels:
+                if channel.pairing is not None and channel.pairing.archive:
+                    held = self._archived(held, island, epoch, channel)
+            for parcel in self._history.last(island, "partners", epoch):
+                held = self._taken(held, island, parcel, "partners")
+            self._companies[island, epoch] = sides_of(channels, held, EpochStreams(self._seed, number, epoch))
+        return self._companies[island, epoch]
+
+    def _archived(self, held: Holdings, island: str, epoch: int, channel: Channel) -> Holdings:
+        """Let the best one shown in each epoch join the archive of a channel, from the first one on."""
+        shown: dict[int, list[tuple[Came, Parcel]]] = defaultdict(list)
+        for parcel in self._history.parcels(island, "partners"):
+            if parcel.channel == channel.name and parcel.epoch <= epoch:
+                shown[parcel.epoch] += [(one, parcel) for one in parcel.came]
+        best = [min(shown[then], key=lambda pair: merit(pair[0])) for then in sorted(shown)]
+        self._history.learn(one.id for one, _ in best)
+        for one, parcel in best:
+            held = archived(held, channel, [self._traveller(one, parcel, "partners")])
+        return held
+
+    # -- who travelled -------------------------------------------------------------------------------------------
+
+    def _taken(self, held: Holdings, island: str, parcel: Parcel, kind: ChannelKind) -> Holdings:
+        channel, ends = self._channels[parcel.channel], (self._specs[parcel.source].number, self._specs[island].number)
+        self._history.learn(one.id for one in parcel.came)
+        travellers = tuple(self._traveller(one, parcel, kind) for one in parcel.came)
+        return taken_in(held, channel, Packet(channel.number, *ends, parcel.sent, "", travellers))[0]
+
+    def _traveller(self, one: Came, parcel: Parcel, kind: ChannelKind) -> Migrant:
+        """Give one as it travelled in a packet."""
+        key = (*self._key(parcel.source, parcel.sent), kind, one.id)
+        if key not in self._texts:
+            text = self._history.genotype(one.id)
+            biology = self.biology(parcel.source, parcel.sent)
+            offering: object = biology
             if isinstance(offering, Offering):
-                text = offering.offer(source.decode(text), kind)
-            found.append(Migrant(one.id, text, one.fitness, tuple(sorted((scores or {}).items())), error))
-        return tuple(found)
+                text = offering.offer(biology.decode(text), kind)
+            self._texts[key] = text
+        return Migrant(
+            one.id, self._texts[key], one.fitness, *self._history.standing(one.id, parcel.source, parcel.sent)
+        )
 
 
-def _better(one: Came, other: Came) -> bool:
-    return one.fitness is not None and (other.fitness is None or one.fitness > other.fitness)
+def _marks(around: Sequence[Parcel]) -> Marks:
+    return tuple((one.channel, one.source, one.sent) for one in around)
 
 
-def _known(found: Mapping[K, V], key: K, identity: int) -> V:
-    """Give what the log has of one that arrived somewhere; a killed run's may lack it."""
-    if key in found:
-        return found[key]
-    got = f"a log without {identity}, which was there"
-    raise InputError("--id", "an individual whose partners and surroundings are in the log", got, "choose another")
+def _partner(side: Side, pairing: int, identity: int) -> Migrant:
+    """Give the partner of a pairing, who has this id."""
+    if side.drawn:
+        chosen = [one for one in side.partners if one.id == identity]
+    else:
+        chosen = [side.partners[pairing % len(side.partners)]]
+    if not chosen or chosen[0].id != identity:
+        raise lacking(identity)
+    return chosen[0]

@@ -100,7 +100,8 @@ class Nursery:
         plan = make_plan(loaded)
         self._specs: dict[str, IslandSpec] = {spec.name: spec for spec in plan.islands}
         self._made: dict[str, Biology[Any]] = {}
-        self._circumstances = Circumstances(folder, plan, loaded.experiment.seed, self.biology)
+        late = loaded.experiment.schedule == "async"
+        self._circumstances = Circumstances(folder, plan, loaded.experiment.seed, late, self.biology)
 
     def biology(self, island: str) -> Biology[Any]:
         """Give the biology of an island by name, as it is while it holds nothing."""

@@ -56,7 +56,8 @@ class Pairing:
     score
         What a member's pairings make together: their ``mean``, the ``best``, or the ``worst`` of them.
     archive
-        How many past representatives are kept: the best one shown in each epoch; the oldest go first.
+        How many past representatives are kept besides the best one shown now: the best one of each epoch before; the
+        oldest go first.
     """
 
     scheme: PairingScheme = "best"

@@ -63,7 +63,8 @@ def test_async_takes_each_packet_once_and_none_of_an_epoch_to_come(tmp_path) -> 
     seen = set()
     for event in events:
         detail = json.loads(event["detail"])
-        for channel, source, epoch in detail["packets"]:
+        for channel, source, epoch, size in detail["packets"]:
+            assert size in (0, 2)
             mark = (event["island"], channel, source, epoch)
             assert mark not in seen
             seen.add(mark)

@@ -100,6 +100,11 @@ def test_of_an_archive_the_best_shown_and_others_drawn_for_each_epoch() -> None:
     assert stats.chisquare(list(found.values())).pvalue > 1e-3
     short = held(*POOL.partners, archives=(Past(0, (shown(7), shown(1))),))
     assert chosen(channel, short) == ([7, 1], 0)
+    # Who is shown now is no past one, but it is as it was shown before.
+    assert chosen(channel, held(*POOL.partners, archives=(Past(0, (shown(7), shown(7, ones=2))),))) == ([7, 7], 0)
+    least = partners(scheme="archive", count=3, archive=2)
+    assert chosen(least, full) == ([7, 1, 2], 0)
+    assert chosen(least, held(*POOL.partners, archives=(Past(0, tuple(shown(n) for n in (1, 2, 3))),)))[0] == [7, 1, 2]
     assert chosen(partners(scheme="archive", count=1, archive=9), full) == ([7], 0)
 
 
@@ -122,11 +127,35 @@ def test_the_key_tells_who_matters_and_how_and_nothing_else() -> None:
     assert key(partners(score="best")) != key(partners(score="worst"))
 
 
+def test_the_key_tells_what_they_show_where_that_matters() -> None:
+    def key(channel, ones, of=7):
+        entries = [shown(one, value, ones if one == of else 1) for one, value in ((7, 9.0), (5, 2.0), (6, 1.0))]
+        past = (Past(0, tuple(shown(n, ones=ones if n == of else 1) for n in (7, 1))),)
+        return sides_of([channel], held(Held(0, 1, tuple(entries)), archives=past), EpochStreams(4, 1, 1)).key
+
+    several, random = partners(scheme="several", count=2), partners(scheme="random", count=2)
+    for channel in (partners(), several, random, partners(scheme="archive", count=2, archive=2)):
+        assert key(channel, 1) != key(channel, 2)
+        assert key(channel, 2) == key(channel, 2)
+    assert key(several, 1, of=5) != key(several, 2, of=5)
+    assert key(partners(), 1, of=5) == key(partners(), 2, of=5)
+    assert key(several, 1, of=6) == key(several, 2, of=6)
+    assert key(random, 1, of=6) != key(random, 2, of=6)
+    archive = partners(scheme="archive", count=2, archive=2)
+    assert key(archive, 1, of=1) != key(archive, 2, of=1)
+
+
 def test_the_archive_takes_the_best_shown_of_an_epoch_and_forgets_the_oldest() -> None:
     channel, holdings = partners(archive=2), Holdings()
-    for best, past in [(4, (4,)), (5, (5, 4)), (4, (5, 4)), (6, (6, 5)), (4, (4, 6))]:
+    # One more than two, since the newest is the present one.
+    for best, past in [(4, (4,)), (5, (5, 4)), (4, (5, 4)), (6, (6, 5, 4)), (2, (2, 6, 5)), (4, (4, 2, 6))]:
         holdings = archived(holdings, channel, [shown(9, -1.0), shown(best, 1.0), shown(3, None)])
         assert [one.id for one in holdings.archives[0].travellers] == list(past)
+    again = archived(holdings, channel, [shown(4, 1.0, ones=5)])
+    assert [(one.id, one.text) for one in again.archives[0].travellers] == [
+        (4, shown(4, ones=5).text), (4, shown(4).text), (2, shown(2).text),
+    ]  # fmt: skip
+    assert archived(again, channel, [shown(4, 7.0)]) is again
     assert archived(holdings, channel, []) is holdings
     assert archived(Holdings(), partners(), [shown(1)]) == Holdings()
 
@@ -222,17 +251,37 @@ def test_random_partners_are_drawn_for_each_member() -> None:
 
 
 def test_the_archive_is_paired_with_in_every_epoch_anew() -> None:
-    isle = friends(partners(scheme="archive", count=2, archive=3))
+    isle = friends(partners(scheme="archive", count=4, archive=3))
     state, past = isle.begin().state, []
     for epoch in range(8):
         step = isle.advance(state, 1, [packet(shown(70 + epoch, 1.0, ones=epoch + 2), epoch=epoch)])
         (together,) = {row.partners for row in (*step.records.rescored, *step.records.born)}
         assert together[0] == 70 + epoch
-        assert set(together[1:]) <= set(past[-2:])
-        assert len(together) == min(2, 1 + len(past))
+        assert together[1:] == tuple(past[:-4:-1])
         past.append(70 + epoch)
         state = step.state
-        assert [one.id for one in state.held.archives[0].travellers] == past[:-4:-1]
+        assert [one.id for one in state.held.archives[0].travellers] == past[:-5:-1]
+
+
+@pytest.mark.parametrize("pairing", [{}, {"scheme": "several", "count": 2}, {"scheme": "random", "count": 2}])
+def test_a_deme_is_scored_again_when_the_same_partner_shows_something_else(pairing) -> None:
+    isle = friends(partners(**pairing))
+    before = isle.advance(isle.begin().state, 1, [packet(shown(71, 5.0, ones=4))]).state
+    step = isle.advance(before, 1, [packet(shown(71, 5.0, ones=9), epoch=1)])
+    assert [(row.id, row.partners) for row in step.records.rescored] == [(one.id, (71,)) for one in before.deme]
+    by_id = {one.id: one.genotype for one in before.deme}
+    assert all(row.fitness == shared(by_id[row.id], 9) for row in step.records.rescored)
+    assert [(row.accepted, row.reason) for row in step.records.crossings] == [(True, "")]
+    assert step.state.scoring != before.scoring
+
+
+def test_what_one_showed_before_is_paired_with_from_the_archive() -> None:
+    isle = friends(partners(scheme="archive", count=2, archive=1))
+    state = isle.advance(isle.begin().state, 1, [packet(shown(71, 5.0, ones=4))]).state
+    step = isle.advance(state, 1, [packet(shown(71, 5.0, ones=9), epoch=1)])
+    assert {row.partners for row in step.records.born} == {(71, 71)}
+    for row in step.records.born:
+        assert row.fitness == (shared(row.genotype, 9) + shared(row.genotype, 4)) / 2
 
 
 def test_an_invalid_pairing_is_a_value() -> None:

@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from traders import trading
+from hosts import run_on_threads
+from traders import judging, trading
 
-from experiments import run
+from experiments import run, write
 from genome.errors import InputError
 from islands.individual import home_of
 from orchestrator.cli import main
@@ -108,6 +109,64 @@ def test_every_pairing_replays(tmp_path, pairing) -> None:
     for row in partners:
         assert all(home_of(one) in (2, 3) for one in row[::2])
         assert all(home_of(one) in (0, 1) for one in row[1::2])
+
+
+SHOWN = [
+    {"pairing": "random", "pairings": 3, "count": 3, "every": 2},
+    {"pairing": "best", "weight": 0.5},
+    {"pairing": "several", "pairings": 3, "count": 2, "score": "best"},
+    {"pairing": "archive", "pairings": 4, "archive": 6, "weight": 0.4, "select": "random", "count": 2},
+]
+
+
+@pytest.mark.parametrize("pairing", SHOWN)
+def test_partners_replay_as_they_were_shown_then(tmp_path, pairing) -> None:
+    found = open_run(str(run(tmp_path, judging(pairing)).folder))
+    assert all(replayed(found))
+    # One id is shown from several islands and among several forms.
+    sql = "select count(distinct source), count(distinct epoch) from migrations where kind = 'partners' group by id"
+    rows = ask(found.log, sql).rows
+    assert any(sources > 1 for sources, _ in rows)
+    assert any(epochs > 1 for _, epochs in rows)
+
+
+@pytest.mark.parametrize("pairing", SHOWN)
+def test_partners_replay_where_packets_came_late_and_several_at_once(tmp_path, pairing) -> None:
+    data = judging(pairing, epochs=25)
+    for seed in range(9):
+        (tmp_path / str(seed)).mkdir()
+        log, _ = run_on_threads(tmp_path / str(seed), write(tmp_path, data), 4, "schedule=async", storm=seed)
+        found = open_run(str(log.parent))
+        assert all(replayed(found))
+        sql = "select detail from events where kind = 'arrivals'"
+        came = [json.loads(detail)["packets"] for (detail,) in ask(log, sql).rows]
+        ways = [Counter((channel, source) for channel, source, _, size in packets if size) for packets in came]
+        if any(count > 1 for way in ways for (channel, _), count in way.items() if channel != 1):
+            return
+    pytest.fail("no two packets of one edge came at once")
+
+
+def test_a_log_of_async_without_its_arrivals_is_told(tmp_path) -> None:
+    data = judging(SHOWN[1])
+    log, _ = run_on_threads(tmp_path, write(tmp_path, data), 2, "schedule=async", storm=1)
+    sql = "select id from individuals where len(partners) > 0 order by id desc limit 1"
+    ((identity,),) = ask(log, sql).rows
+    for path in (log / "events").iterdir():
+        path.unlink()
+    folder = open_run(str(log.parent))
+    with pytest.raises(InputError, match="--id: expected a log with the arrivals of a run of schedule async, got none"):
+        Nursery(folder).score(by_id(folder, [identity])[0])
+
+
+def test_a_chain_of_surroundings_as_long_as_the_run_replays(tmp_path) -> None:
+    channels = [{"kind": "surroundings", "from": one, "to": two} for one, two in (("skin", "pelt"), ("pelt", "skin"))]
+    islands = {name: {"kind": "traders:SkinKind", "population": 2} for name in ("skin", "pelt")}
+    data = trading(epochs=400, epoch=1, islands=islands, channels=channels)
+    found = open_run(str(run(tmp_path, data).folder))
+    ((last,),) = ask(found.log, "select max(id) from individuals").rows
+    (logged,) = by_id(found, [last])
+    assert logged.epoch == 400
+    assert same(logged, Nursery(found).score(logged))
 
 
 def test_packets_of_different_sizes_replay(tmp_path) -> None:

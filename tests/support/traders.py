@@ -124,6 +124,38 @@ class SkinKind(BitsKind):
         return SkinBiology(spec, clock)
 
 
+class ModelBiology(SkinBiology):
+    """Shows partners its form, which hangs on those around it as one of its scores does, and its fitness does not."""
+
+    def evaluate(self, genotype: Bits) -> Evaluation:
+        alone, among = BitsBiology.evaluate(self, genotype), super().evaluate(genotype)
+        return replace(alone, scores=among.scores) if alone.fitness is not None else alone
+
+
+class ModelKind(SkinKind):
+    name: ClassVar[str] = "model"
+    gives: ClassVar[Mapping[str, str]] = {"partners": "word"}
+
+    def build(self, spec: IslandSpec, clock: Clock) -> ModelBiology:
+        return ModelBiology(spec, clock)
+
+
+class JudgeBiology(BitsBiology):
+    """Scored by its partners' words, and by their scores."""
+
+    def evaluate_with(self, genotype: Bits, partners: tuple[Migrant, ...]) -> Evaluation:
+        words = [json.loads(partner.text) for partner in partners]
+        shared = sum(a == b for word in words for a, b in zip(genotype, word, strict=True))
+        return _more(self.evaluate(genotype), shared + sum(value for one in partners for _, value in one.scores) / 64)
+
+
+class JudgeKind(GuestKind):
+    name: ClassVar[str] = "judge"
+
+    def build(self, spec: IslandSpec, clock: Clock) -> JudgeBiology:
+        return JudgeBiology(spec, clock)
+
+
 class HollowKind(GuestKind):
     """Says that it takes everything, and can make use of nothing."""
 
@@ -160,6 +192,33 @@ class Shorten:
 
             raise InputError("", "a source of at most 100 bits", str(source.genome["length"]))
         return lambda text: json.dumps((json.loads(text) + [0] * length)[:length])
+
+
+def judging(pairing: Mapping[str, Any], **changes: Any) -> dict[str, Any]:
+    """Models that wander between islands which score otherwise, among forms that change, shown to a judge."""
+    data: dict[str, Any] = {
+        "name": "judging",
+        "seed": 2,
+        "epochs": 10,
+        "epoch": 1,
+        "backend": "inline",
+        "defaults": {
+            "population": 6, "genome": {"length": 12}, "fitness": {"ones": {"goal": "maximise"}},
+            "algorithm": {"elite": 2, "mutation": 1.0},
+        },
+        "islands": {
+            "sun": {"kind": "traders:GuestKind", "algorithm": {"elite": 1}},
+            "model": {"kind": "traders:ModelKind", "count": 2},
+            "odd": {"kind": "traders:ModelKind", "growth": {"invert": True}},
+            "judge": {"kind": "traders:JudgeKind"},
+        },
+        "channels": [
+            {"kind": "surroundings", "from": "sun", "to": ["model", "odd"], "select": "random", "weight": 0.6},
+            {"topology": "ring", "among": ["model", "odd"], "count": 2},
+            {"kind": "partners", "from": ["model", "odd"], "to": "judge", **pairing},
+        ],
+    }  # fmt: skip
+    return {**data, **changes}
 
 
 def trading(**changes: Any) -> dict[str, Any]:
