@@ -154,7 +154,7 @@ def _translated(
     kind = str(error["type"])
     if kind == "extra_forbidden":
         known = _fields_at(model, loc[:-1])
-        return InputError(where, "a known key", f"'{loc[-1]}'", near(str(loc[-1]), known) if known else "")
+        return InputError(where, "a known key", describe(str(loc[-1])), near(str(loc[-1]), known) if known else "")
     if kind == "missing":
         return InputError(where, f"a value for '{loc[-1]}'", "nothing", "add the key")
     context = error.get("ctx") or {}

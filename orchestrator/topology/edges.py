@@ -8,6 +8,7 @@ from typing import Annotated, Any, Final, final
 from pydantic import BeforeValidator, WithJsonSchema
 
 from genome.errors import InputError
+from genome.mishaps import one_line
 from genome.settings import Settings, describe, near
 from orchestrator.topology.protocol import Ground, Link
 
@@ -59,9 +60,12 @@ class Edges(Settings):
             where = f"edges.{number}"
             ends = _place(source, places, where), _place(target, places, where)
             if ends[0] == ends[1]:
-                raise InputError(where, "two islands", f"'{source}' twice", "a channel to itself carries nothing")
+                raise InputError(
+                    where, "two islands", f"'{one_line(str(source), 60)}' twice", "a channel to itself carries nothing"
+                )
             if ends in found:
-                got = f"{source} -> {target} again, as edge {found[ends]}"
+                shown = " -> ".join(one_line(str(end), 60) for end in (source, target))
+                got = f"{shown} again, as edge {found[ends]}"
                 raise InputError(where, "each edge once", got, "remove one of them")
             found[ends] = number
             links.append(Link(*ends, *weight))
@@ -76,4 +80,4 @@ def _place(end: str | int, places: Mapping[str, int], where: str) -> int:
         raise InputError(where, f"a member's name, or its place from 0 to {len(places) - 1}", str(end))
     if end in places:
         return places[end]
-    raise InputError(where, "a member of the channel, by name or place", f"'{end}'", near(end, list(places)))
+    raise InputError(where, "a member of the channel, by name or place", describe(end), near(end, list(places)))

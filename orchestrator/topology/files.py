@@ -2,10 +2,12 @@
 
 GraphML, GML, GEXF and node-link JSON are read by networkx. XML that declares a document type is refused before it gets
 there, so that no entity is ever expanded. Edge lists and adjacency lists are read here, for the sake of line numbers.
+What is too large to be a graph of the islands is refused before it is parsed.
 """
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 from collections.abc import Callable, Mapping
@@ -16,9 +18,19 @@ from xml.parsers import expat
 
 from genome.errors import InputError
 from genome.mishaps import one_line, told
+from genome.settings import describe
 
 UNTOLD: Final = (".edgelist", ".adjlist")
 """Suffixes of files that do not tell whether their graph is directed."""
+
+
+MEBIBYTE: Final = 2**20
+MOST: Final = 16 * MEBIBYTE
+"""The largest file that is read, in bytes."""
+MOST_GML: Final = 4 * MEBIBYTE
+"""The largest GML file, which is slow to read."""
+MOST_ATTRIBUTES: Final = 10_000
+"""The longest attributes of one edge in an edge list, in characters."""
 
 
 class Read(NamedTuple):
@@ -50,7 +62,7 @@ class _BrokenError(Exception):
         self.line = line
 
 
-def read_graph(path: Path, *, directed: bool) -> Read:
+def read_graph(path: Path, *, directed: bool, most: int) -> Read:
     """Read a graph file by its suffix.
 
     Parameters
@@ -59,18 +71,20 @@ def read_graph(path: Path, *, directed: bool) -> Read:
         The file; it is there.
     directed
         Whether the edges of a file that does not tell are directed.
+    most
+        Nodes that it may have.
 
     Raises
     ------
     InputError
-        With ``file`` as its place: for another suffix, or a file that is broken.
+        With ``file`` as its place: for another suffix, or a file that is broken or too large.
     """
     if path.suffix not in _READERS:
         known = ", ".join(_READERS)
         raise InputError("file", f"a graph file ({known})", f"'{path.name}'", "nothing else is read, nor unpickled")
     what, reader = _READERS[path.suffix]
     try:
-        return reader(path.read_bytes(), directed)
+        return reader(_content(path), directed, most)
     except _BrokenError as error:
         place = f"'{path.name}', line {error.line}" if error.line else f"'{path.name}'"
         raise InputError("file", what, f"{place}: {one_line(str(error))}", "write it anew") from None
@@ -82,28 +96,41 @@ def read_graph(path: Path, *, directed: bool) -> Read:
         ) from error
 
 
-def _graphml(content: bytes, directed: bool) -> Read:
+def _content(path: Path) -> bytes:
+    limit = MOST_GML if path.suffix == ".gml" else MOST
+    with path.open("rb") as file:
+        content = file.read(limit + 1)
+    if len(content) > limit:
+        problem = f"more than {limit // MEBIBYTE} MiB"
+        raise _BrokenError(problem)
+    return content
+
+
+def _graphml(content: bytes, directed: bool, most: int) -> Read:
     import networkx as nx
 
     del directed
-    _refuse_broken_xml(content)
+    _refuse_broken_xml(content, most)
     return _of(nx.read_graphml(BytesIO(content)))
 
 
-def _gexf(content: bytes, directed: bool) -> Read:
+def _gexf(content: bytes, directed: bool, most: int) -> Read:
     import networkx as nx
 
     del directed
-    _refuse_broken_xml(content)
+    _refuse_broken_xml(content, most)
     graph = nx.read_gexf(BytesIO(content), node_type=str)
     return _of(graph)._replace(labels=tuple(str(data.get("label", node)) for node, data in graph.nodes(data=True)))
 
 
-def _gml(content: bytes, directed: bool) -> Read:
+def _gml(content: bytes, directed: bool, most: int) -> Read:
     import networkx as nx
 
     del directed
-    lines = _text(content).splitlines()
+    text = _text(content)
+    # What stands in quotes is no node.
+    _refuse_more(sum(found[0][0] != '"' for found in re.finditer(r'"[^"]*"|\bnode\s*\[', text)), most)
+    lines = text.splitlines()
     try:
         try:
             return _of(nx.parse_gml(lines, label="label"))
@@ -116,7 +143,7 @@ def _gml(content: bytes, directed: bool) -> Read:
         raise _BrokenError(str(error), int(found[1]) if found else None) from None
 
 
-def _node_link(content: bytes, directed: bool) -> Read:
+def _node_link(content: bytes, directed: bool, most: int) -> Read:
     import networkx as nx
 
     del directed
@@ -126,41 +153,48 @@ def _node_link(content: bytes, directed: bool) -> Read:
         raise _BrokenError(error.msg, error.lineno) from None
     if not isinstance(data, Mapping) or not isinstance(data.get("nodes"), list):
         raise _BrokenError("no object with 'nodes' and 'edges'")
-    key = next((key for key in ("edges", "links") if isinstance(data.get(key), list)), None)
-    if key is None:
-        raise _BrokenError("neither 'edges' nor 'links'")
-    return _of(nx.node_link_graph(dict(data), directed=False, multigraph=False, edges=key))
+    _refuse_more(len(data["nodes"]), most)
+    keys = [key for key in ("edges", "links") if isinstance(data.get(key), list)]
+    if len(keys) != 1:
+        raise _BrokenError("both 'edges' and 'links'" if keys else "neither 'edges' nor 'links'")
+    return _of(nx.node_link_graph(dict(data), directed=False, multigraph=False, edges=keys[0]))
 
 
-def _edge_list(content: bytes, directed: bool) -> Read:
-    """Read lines of two nodes and, if there is one, a weight: a number, or as networkx writes it."""
+def _edge_list(content: bytes, directed: bool, most: int) -> Read:
+    """Read lines of two nodes and, if they are there, a weight or a dictionary of attributes as networkx writes it."""
     nodes: dict[str, None] = {}
     edges: list[tuple[str, str, object]] = []
-    for number, line in _lines(content):
-        source, _, rest = line.partition(" ")
-        target, _, data = rest.strip().partition(" ")
-        if not target:
-            raise _BrokenError(f"'{line}', where two nodes stand", number)
-        edges.append((source, target, _weight(data.strip(), number)))
-        nodes.update({source: None, target: None})
+    for number, line in enumerate(_text(content).splitlines(), 1):
+        # A comment begins before the attributes or after them: a sign within them is one of theirs.
+        begin = line.find("{") if "{" in line.partition("#")[0] else len(line)
+        end = line.rfind("}") + 1 if "}" in line[begin:] else begin
+        words = line[:begin].partition("#")[0].split()
+        data = line[begin:end] + line[end:].partition("#")[0].rstrip()
+        if not words:
+            continue
+        if len(words) < 2:
+            raise _BrokenError(f"{describe(line.strip())}, where two nodes stand", number)
+        edges.append((words[0], words[1], _weight(" ".join(words[2:]), data, number)))
+        nodes.update({words[0]: None, words[1]: None})
+        _refuse_more(len(nodes), most, number)
     return Read(tuple(nodes), tuple(edges), directed)
 
 
-def _adjacency(content: bytes, directed: bool) -> Read:
+def _adjacency(content: bytes, directed: bool, most: int) -> Read:
     """Read lines of a node and those that it has edges to."""
     nodes: dict[str, None] = {}
     edges: list[tuple[str, str, object]] = []
     seen: set[tuple[str, str]] = set()  # an undirected list may tell of an edge at both of its ends
-    for _, line in _lines(content):
-        source, *targets = line.split(" ")
+    for number, (source, *targets) in _lines(content):
         nodes.update(dict.fromkeys((source, *targets)))
+        _refuse_more(len(nodes), most, number)
         edges.extend((source, target, None) for target in targets if (source, target) not in seen)
         if not directed:
             seen.update((target, source) for target in targets if target != source)
     return Read(tuple(nodes), tuple(edges), directed)
 
 
-_READERS: Final[Mapping[str, tuple[str, Callable[[bytes, bool], Read]]]] = {
+_READERS: Final[Mapping[str, tuple[str, Callable[[bytes, bool, int], Read]]]] = {
     ".graphml": ("a GraphML file", _graphml),
     ".gml": ("a GML file", _gml),
     ".gexf": ("a GEXF file", _gexf),
@@ -176,15 +210,33 @@ def _of(graph: Any) -> Read:  # noqa: ANN401 - networkx has no types of its own
     return Read(tuple(str(node) for node in graph.nodes), edges, bool(graph.is_directed()))
 
 
-def _refuse_broken_xml(content: bytes) -> None:
-    """Parse XML for its form alone, with its line numbers, and refuse what declares a document type."""
+def _refuse_more(nodes: int, most: int, line: int | None = None) -> None:
+    """Refuse a graph of more nodes than it may have."""
+    if nodes > most:
+        problem = f"more nodes than there are islands, {most}"
+        raise _BrokenError(problem, line)
+
+
+def _refuse_broken_xml(content: bytes, most: int) -> None:
+    """Parse XML for its form alone, with its line numbers; refuse a document type, a second graph, too many nodes."""
+    counts = {"node": 0, "graph": 0}
 
     def declares(*_: object) -> None:
         problem = "a document type, which graph files do without"
         raise _BrokenError(problem, parser.CurrentLineNumber)
 
+    def begins(name: str, attributes: object) -> None:
+        del attributes
+        if (kind := name.rpartition(":")[2]) in counts:
+            counts[kind] += 1
+            _refuse_more(counts["node"], most, parser.CurrentLineNumber)
+            if counts["graph"] > 1:
+                problem = "a second graph, of which networkx would read the first alone"
+                raise _BrokenError(problem, parser.CurrentLineNumber)
+
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = declares
+    parser.StartElementHandler = begins
     try:
         parser.Parse(content, True)  # noqa: FBT003 - it takes no keywords
     except expat.ExpatError as error:
@@ -199,17 +251,21 @@ def _text(content: bytes) -> str:
         raise _BrokenError("bytes that are not UTF-8", line) from None
 
 
-def _lines(content: bytes) -> list[tuple[int, str]]:
-    """Give the lines that say something, with their numbers: without comments, and with single spaces."""
+def _lines(content: bytes) -> list[tuple[int, list[str]]]:
+    """Give the words of the lines that say something, with the lines' numbers, without comments."""
     lines = ((number, line.partition("#")[0].split()) for number, line in enumerate(_text(content).splitlines(), 1))
-    return [(number, " ".join(words)) for number, words in lines if words]
+    return [(number, words) for number, words in lines if words]
 
 
-def _weight(data: str, line: int) -> float | None:
-    found = re.fullmatch(r"(?:\{\s*(?:['\"]weight['\"]\s*:)?)?\s*(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)?\s*\}?", data)
+def _weight(number: str, attributes: str, line: int) -> object:
+    """Give the weight of an edge, of a plain number or of attributes, which hold values alone."""
     try:
-        if found is not None:
-            return float(found[1]) if found[1] is not None else None
-    except ValueError:
+        if not attributes:
+            return float(number) if number else None
+        found = ast.literal_eval(attributes) if len(attributes) <= MOST_ATTRIBUTES and not number else None
+        if isinstance(found, dict):
+            return found.get("weight")
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
         pass
-    raise _BrokenError(f"'{data}', where a weight or nothing stands", line)
+    text = one_line(f"{number} {attributes}".strip(), 60)
+    raise _BrokenError(f"'{text}', where a weight or nothing stands", line)

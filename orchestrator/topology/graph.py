@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, final
+from typing import Annotated, Final, final
 
 from pydantic import StringConstraints
 
 from genome.errors import InputError
-from genome.settings import Settings
+from genome.mishaps import one_line
+from genome.settings import Settings, describe
 from islands.kinds.protocol import Keep
 from orchestrator.topology.files import UNTOLD, Read, read_graph
 from orchestrator.topology.protocol import Ground, Link
+
+MOST: Final = 60
+"""The longest name of a node that a message tells."""
 
 
 @final
@@ -45,7 +49,7 @@ class Graph(Settings):
         if self.directed is not None and path.suffix not in UNTOLD:
             got = f"'{path.suffix}', which tells it itself"
             raise InputError("directed", f"a file of {' or '.join(UNTOLD)}", got, "remove the key")
-        read = read_graph(path, directed=bool(self.directed))
+        read = read_graph(path, directed=bool(self.directed), most=ground.count)
         places = _places(read, ground)
         links: dict[tuple[int, int], Link] = {}
         for source, target, weight in read.edges:
@@ -63,8 +67,12 @@ class Graph(Settings):
 
     def _path(self, base: Path) -> Path:
         path = base / self.file
-        if not path.is_file():
-            got = f"'{self.file}', which is {'a folder' if path.is_dir() else 'not there'}"
+        try:
+            what = "" if path.is_file() else "a folder" if path.is_dir() else "not there"
+        except OSError as error:
+            raise InputError("file", "a graph file", f"{describe(self.file)} ({error.strerror})") from None
+        if what:
+            got = f"{describe(self.file)}, which is {what}"
             raise InputError("file", "a graph file", got, f"it is looked for in {base}")
         return path
 
@@ -82,7 +90,7 @@ def _places(read: Read, ground: Ground) -> dict[str, int]:
         if name not in names or names[name] in taken:
             shown = ", ".join(ground.names[:4]) + (", ..." if ground.count > 4 else "")
             expected = f"nodes that are members ({shown}), or their places from 0 to {ground.count - 1}"
-            got = f"the node '{name}'{' again' if name in names else ''}"
+            got = f"the node {describe(name)}{' again' if name in names else ''}"
             raise InputError("file", expected, got, "rename it, or change 'among'")
         places[node] = names[name]
         taken.add(names[name])
@@ -90,14 +98,14 @@ def _places(read: Read, ground: Ground) -> dict[str, int]:
 
 
 def _check(source: str, target: str, weight: object, *, loop: bool, repeated: bool, file: str) -> None:
-    edge = f"{source} - {target} in '{file}'"
+    edge = f"{one_line(source, MOST)} - {one_line(target, MOST)} in {describe(file)}"
     if loop:
         raise InputError("file", "edges between two islands", edge, "a channel to itself carries nothing")
     if repeated:
         remedy = "remove one of them, or let the graph be directed"
         raise InputError("file", "each edge once", f"{edge} again", remedy)
     if weight is not None and (type(weight) not in (int, float) or not 0 <= weight <= 1):  # type: ignore[operator]
-        raise InputError("file", "weights from 0 to 1", f"{weight!r} of {edge}", "a weight is a probability")
+        raise InputError("file", "weights from 0 to 1", f"{describe(weight)} of {edge}", "a weight is a probability")
 
 
 def _probability(weight: object) -> float | None:
