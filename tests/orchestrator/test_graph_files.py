@@ -89,6 +89,47 @@ def test_edge_lists_may_hold_comments_and_plain_weights(tmp_path) -> None:
     assert [link.weight for link in found] == [0.5, None, None]
 
 
+def test_edge_lists_hold_attributes_as_networkx_writes_them(tmp_path) -> None:
+    graph = nx.DiGraph()
+    graph.add_edge("north", "south", colour="red {dark}", weight=0.25)
+    graph.add_edge("south", "east", span=(1, 2.5), none=None)
+    nx.write_edgelist(graph, tmp_path / "g.edgelist")
+    with (tmp_path / "g.edgelist").open("a") as file:
+        file.write("east west {'colour': '#ff0000', 'weight': 1} # {'weight': 0}\nwest north # {'weight': 0}\n")
+    found = links(tmp_path, "g.edgelist", directed=True)
+    weights = {(NAMES[link.source], NAMES[link.target]): link.weight for link in found}
+    assert weights == {
+        ("north", "south"): 0.25,
+        ("south", "east"): None,
+        ("east", "west"): 1.0,
+        ("west", "north"): None,
+    }
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+def test_what_is_too_large_to_be_a_graph_of_islands_is_not_read(tmp_path, suffix) -> None:
+    limit = 4 if suffix == "gml" else 16
+    (tmp_path / f"g.{suffix}").write_bytes(b" " * (limit * 2**20 + 1))
+    with pytest.raises(InputError, match=rf"topology\.file: expected .*, got 'g\.{suffix}': more than {limit} MiB"):
+        links(tmp_path, f"g.{suffix}")
+    if suffix in UNTOLD:
+        (tmp_path / f"g.{suffix}").write_bytes(b" " * (limit * 2**20))
+        assert links(tmp_path, f"g.{suffix}") == []
+
+
+def test_a_label_may_say_what_it_likes(tmp_path) -> None:
+    labels = ["node [1]", "node [2]", "node [3]", "node [4]"]
+    nx.write_gml(nx.path_graph(labels), tmp_path / "g.gml")
+    assert len(links(tmp_path, "g.gml", tuple(labels))) == 6
+
+
+def test_a_name_that_no_file_can_have_is_blamed_on_its_key(tmp_path) -> None:
+    with pytest.raises(
+        InputError, match=r"topology\.file: expected a graph file, got 'x{56}\.\.\. \(File name too long\)$"
+    ):
+        links(tmp_path, "x" * 300 + ".gml")
+
+
 def test_an_undirected_adjacency_list_may_tell_of_an_edge_at_both_ends(tmp_path) -> None:
     (tmp_path / "g.adjlist").write_text("north south east\nsouth north\neast north\n")
     assert len(links(tmp_path, "g.adjlist")) == 4
@@ -106,6 +147,25 @@ BROKEN = [
     ("g.graphml", FETCH, "'g.graphml', line 1: a document type"),
     ("g.graphml", "<graphml>\n<graph>\n</graphml>", "expected a GraphML file, got 'g.graphml', line 3: mismatched tag"),
     ("g.graphml", "", "'g.graphml', line 1: no element found"),
+    ("g.graphml", '<graphml>\n<graph edgedefault="directed"/>\n<graph edgedefault="directed"/></graphml>',
+     "'g.graphml', line 3: a second graph, of which networkx would read the first alone"),
+    ("g.graphml", "<graphml><graph>" + "<node id='x'/>" * 4 + "\n<node id='x'/></graph></graphml>",
+     "'g.graphml', line 2: more nodes than there are islands, 4"),
+    ("g.gexf", f"<gexf><graph><nodes>{'<node/>' * 5}", "'g.gexf', line 1: more nodes than there are islands, 4"),
+    ("g.gml", "graph [ " + "node [ ] " * 5 + "]", "'g.gml': more nodes than there are islands, 4"),
+    ("g.json", json.dumps({"nodes": [{"id": n} for n in range(5)], "edges": []}), "'g.json': more nodes than there ar"),
+    ("g.edgelist", "a b\nc d\ne a\n", "'g.edgelist', line 3: more nodes than there are islands, 4"),
+    ("g.adjlist", "a b c\nd e\n", "'g.adjlist', line 2: more nodes than there are islands, 4"),
+    ("g.json", '{"nodes": [], "edges": [], "links": []}', "'g.json': both 'edges' and 'links'"),
+    ("g.edgelist", "north south {'weight': 0.5\n", "line 1: '{'weight': 0.5', where a weight or nothing stands"),
+    ("g.edgelist", "north south 0.5}\n", "line 1: '0.5}', where a weight or nothing stands"),
+    ("g.edgelist", "north south {0.5}\n", "line 1: '{0.5}', where a weight or nothing stands"),
+    ("g.edgelist", "north south 1 {}\n", "line 1: '1 {}', where a weight or nothing stands"),
+    ("g.edgelist", "north south {'x': " + "[" * 300 + "}\n", "where a weight or nothing stands"),
+    ("g.edgelist", "north south {'x': '" + "y" * 10_000 + "'}\n", "yyy…', where a weight or nothing stands"),
+    ("g.edgelist", "north south {'weight': '0.5'}\n", "expected weights from 0 to 1, got '0.5' of north - south"),
+    ("g.edgelist", "north south nan\n", "expected weights from 0 to 1, got nan of north - south"),
+    ("g.edgelist", f"{'n' * 500} south\n", f"got the node '{'n' * 56}...; rename it"),
     ("g.graphml", "<svg/>", "expected a GraphML file, got 'g.graphml', which cannot be read"),
     ("g.gexf", "<gexf", "expected a GEXF file, got 'g.gexf', line 1: unclosed token"),
     ("g.gexf", "<gexf/>", "expected a GEXF file, got 'g.gexf', which cannot be read"),
