@@ -209,7 +209,7 @@ def judging(pairing: Mapping[str, Any], **changes: Any) -> dict[str, Any]:
         "islands": {
             "sun": {"kind": "traders:GuestKind", "algorithm": {"elite": 1}},
             "model": {"kind": "traders:ModelKind", "count": 2},
-            "odd": {"kind": "traders:ModelKind", "growth": {"invert": True}},
+            "odd": {"kind": "traders:ModelKind", "count": 2, "growth": {"invert": True}},
             "judge": {"kind": "traders:JudgeKind"},
         },
         "channels": [
