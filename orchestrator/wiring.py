@@ -113,20 +113,24 @@ class _Wiring:
         if isinstance(topology, Random):
             return self._anew(settings, where, members, topology, ground)
         links = links_of(settings.topology_name, settings.parameters, ground, place)
-        between = [Link(members[link.source], members[link.target], link.weight) for link in links]
+        between = links
+        if members != tuple(range(len(members))):
+            between = [Link(members[link.source], members[link.target], link.weight) for link in links]
         return self._laid(settings, where, members, members, between)
 
     def _laid(
         self, settings: ChannelSettings, where: str, members: Sequence[int], ends: Sequence[int], links: Sequence[Link]
     ) -> Wired:
-        largest = max((self.islands[link.source].population for link in links), default=1)
+        largest = max((self.islands[source].population for source in {link.source for link in links}), default=1)
         channel = channel_of(settings, self.number, self.name, largest)
         edges = []
+        # There may be a million of them: what they share is looked up once.
+        names, species = [spec.name for spec in self.islands], [spec.species for spec in self.islands]
+        usual, adapter = settings.weight, settings.adapter or ""
         for source, target, weight in sorted(links):
-            one, other = self.islands[source], self.islands[target]
-            adapter = _adapter(settings, one, other)
-            carries = settings.weight if weight is None else weight
-            edges.append(Edge(channel, source, target, one.name, other.name, carries, adapter))
+            between = adapter if adapter and species[source] != species[target] else ""  # one species needs none
+            carries = usual if weight is None else weight
+            edges.append(Edge(channel, source, target, names[source], names[target], carries, between))
         if edges and not any(edge.weight for edge in edges):
             got = "0 on each edge, by which it never carries"
             raise InputError(f"{where}.topology", "an edge with a weight above 0", got, "remove the channel")
@@ -169,11 +173,6 @@ class _Wiring:
             got = f"'{self.islands[loop].name}' twice"
             raise InputError(f"{where}.to", "two islands", got, "a channel to itself carries nothing")
         return [Link(*pair) for pair in pairs], [*sources, *targets]
-
-
-def _adapter(settings: ChannelSettings, source: IslandSpec, target: IslandSpec) -> str:
-    """Give the adapter of an edge: islands of one species need none."""
-    return (settings.adapter or "") if source.species != target.species else ""
 
 
 def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility) -> None:

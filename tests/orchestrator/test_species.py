@@ -79,11 +79,12 @@ def test_more_pairings_than_drawn_edges_can_ever_show_are_refused(tmp_path) -> N
 
 
 def test_islands_alone_in_their_group_need_not_trade_with_themselves(tmp_path) -> None:
-    from traders import trading
-
-    data = trading(islands={"host": {"kind": "traders:SkinKind"}, "guest": {"kind": "traders:SkinKind"}},
-                   channels=[{"kind": "surroundings", "topology": "random"}])  # fmt: skip
+    data = bits(islands={"left": {"kind": "spoilt:LeftKind"}, "right": {"kind": "spoilt:RightKind"}},
+                channels=[{"kind": "partners", "topology": "random"}])  # fmt: skip
     assert planned(tmp_path, data).redrawn
+    data["islands"]["left"]["count"] = 2
+    with pytest.raises(InputError, match="which gives left to channels of kind partners, and left-0"):
+        planned(tmp_path, data)
 
 
 ALIKE = {"from": "a", "to": "b", "adapter": "resize"}

@@ -88,3 +88,17 @@ class OneNeedKind(BitsKind):
         made = BitsBiology(spec, clock)
         made.evaluate_with = lambda genotype, partners: made.evaluate(genotype)
         return made
+
+
+class LeftKind(OneNeedKind):
+    """Has no use for its like."""
+
+    name: ClassVar[str] = "left"
+    gives: ClassVar[dict[str, str]] = {"partners": "left"}
+    takes: ClassVar[dict[str, str]] = {"partners": "right"}
+
+
+class RightKind(OneNeedKind):
+    name: ClassVar[str] = "right"
+    gives: ClassVar[dict[str, str]] = {"partners": "right"}
+    takes: ClassVar[dict[str, str]] = {"partners": "left"}
