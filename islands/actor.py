@@ -6,12 +6,12 @@ import sys
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, final
 
-from islands.host import Advanced, Box, Finished, Host, HostPlan
+from islands.host import Advanced, Box, Finished, Host, HostPlan, Step
 from islands.mail import CAN_LISTEN, Letterbox, Line
 from islands.wire import opened, sealed
 
 CONTROL: Final = "control"
-"""The concurrency group of ``stop``, which must be heard while ``advance`` runs."""
+"""The concurrency group of ``stop`` and ``step``, which must be heard while ``advance`` runs."""
 
 MAIL: Final = "mail"
 """The concurrency group of ``deliver``: letters come while ``advance`` runs."""
@@ -38,13 +38,17 @@ class HostActor:
     ----------
     plan
         What the host is to do.
+    mail
+        The folder in which its letterbox is to stand; empty for one of its own.
     """
 
-    def __init__(self, plan: HostPlan) -> None:
+    def __init__(self, plan: HostPlan, mail: str = "") -> None:
         sys.setswitchinterval(SWITCH_S)
         self._plan = plan
         self._host = Host(plan, post=self._post)
-        self._letterbox = Letterbox(self.deliver) if CAN_LISTEN and plan.hosts > 1 else None
+        self._letterbox = (
+            Letterbox(self.deliver, mail and f"{mail}/{plan.host}") if CAN_LISTEN and plan.hosts > 1 else None
+        )
         self._address = Address(_machine(), "" if self._letterbox is None else self._letterbox.address)
         self._lines: dict[int, Line] = {}
         self._peers: dict[int, Any] = {}
@@ -79,6 +83,10 @@ class HostActor:
     def stop(self) -> None:
         """Ask for the epoch in hand to be abandoned."""
         self._host.stop()
+
+    def step(self) -> Step:
+        """Give what the host is at."""
+        return self._host.step()
 
     def deliver(self, letter: bytes) -> None:
         """Take a letter from another host."""

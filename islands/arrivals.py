@@ -5,10 +5,15 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, cast
 
+from genome.errors import InputError
+from genome.settings import describe
 from islands.migration.channel import Edge, Packet
 from islands.spec import IslandSpec
+
+SIZED: Final = ("channel", "source", "epoch", "number of travellers")
+"""What the event tells of each packet."""
 
 Record = dict[tuple[int, int], list[tuple[int, int, int]]]
 """For an island's number and an epoch, the packets that it took in: channel, source, epoch sent."""
@@ -58,6 +63,19 @@ def recorded_sizes(log: Path, islands: Iterable[IslandSpec]) -> Sizes:
         table = pq.read_table(path, columns=["island", "epoch", "kind", "detail"], filters=[("kind", "=", "arrivals")])
         for row in table.to_pylist():
             if row["island"] in numbers:
-                packets = json.loads(row["detail"])["packets"]
-                record[numbers[row["island"]], row["epoch"]] = [(*mark,) for mark in packets]
+                record[numbers[row["island"]], row["epoch"]] = _marks(row["detail"], row["epoch"], path)
     return record
+
+
+def _marks(detail: str, epoch: int, path: Path) -> list[tuple[int, int, int, int]]:
+    """Read one event; what cannot have happened would let a replay wait for ever."""
+    try:
+        marks = [(*map(int, mark),) for mark in json.loads(detail)["packets"]]
+        if all(len(mark) == len(SIZED) and 0 <= mark[2] < epoch for mark in marks):
+            return cast("list[tuple[int, int, int, int]]", marks)
+    except (ValueError, KeyError, TypeError):
+        pass
+    expected = f"packets taken in at the start of epoch {epoch}, each [{', '.join(SIZED)}] with an earlier epoch"
+    raise InputError(
+        f"{path.parent.name}/{path.name}", expected, describe(detail), "the log was changed, or is not whole"
+    )

@@ -133,6 +133,14 @@ class Advanced(NamedTuple):
     stopped: bool = False
 
 
+class Step(NamedTuple):
+    """What a host is at: which island, which epoch, for how many seconds; an empty name while it waits."""
+
+    island: str
+    epoch: int
+    seconds: float
+
+
 class Finished(NamedTuple):
     """What a host left behind: the paths of its forms, and how its islands stood at the end of the log."""
 
@@ -186,6 +194,7 @@ class Host:
         self._history: dict[int, dict[int, State[Any]]] = {}
         self._gathered: dict[int, list[Packet]] = {}
         self._posted = 0.0
+        self._turn: tuple[int, int, float] | None = None
         self._flushed = self._told = -1
         self._broken: Advanced | None = None
         self._busy = self._waited = 0.0
@@ -244,6 +253,13 @@ class Host:
         with self._bell:
             self._bell.notify_all()
 
+    def step(self) -> Step:
+        """Give what the host is at."""
+        if self._turn is None:
+            return Step("", -1, 0.0)
+        number, epoch, started = self._turn
+        return Step(self._islands[number].spec.name, epoch, self._clock() - started)
+
     def deliver(self, packets: Box) -> None:
         """Take packets from another host."""
         self._mail.append(packets)
@@ -296,8 +312,9 @@ class Host:
                 self._wait()
                 continue
             started = self._clock()
+            self._turn = (*turn, started)
             self._take_turn(*turn)
-            ended = self._clock()
+            self._turn, ended = None, self._clock()
             self._busy += ended - started
             if ended - self._posted > POST_S:
                 self._send()

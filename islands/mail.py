@@ -32,11 +32,14 @@ class Letterbox:
     ----------
     take
         Is given each letter, on the letterbox's own thread.
+    folder
+        Where it is to stand, a folder that is not there yet, in one that only this user can enter; empty for any.
     """
 
-    def __init__(self, take: Callable[[bytes], None]) -> None:
+    def __init__(self, take: Callable[[bytes], None], folder: str = "") -> None:
         self._take = take
-        self._folder = Path(tempfile.mkdtemp(prefix="atoll-"))
+        self._folder = Path(folder or tempfile.mkdtemp(prefix="atoll-"))
+        self._folder.mkdir(mode=0o700, exist_ok=True)
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.address: Final = str(self._folder / "mail")
         self._listener.bind(self.address)

@@ -29,6 +29,7 @@ from orchestrator.progress import Progress
 from orchestrator.signals import Signals
 
 POLL_S: Final = 0.25
+PATIENCE: Final = 4
 LEAST_EPOCH_S: Final = 600.0
 MOST_EPOCH_S: Final = 86_400.0
 
@@ -264,7 +265,7 @@ class _Drive:
             event = events.popleft() if events else self.backend.wait(POLL_S)
             if stop.is_set() and not told:
                 events.append(machine.StopAsked())
-                self.progress.note("stopping: the epoch in hand is given up, the log is written")
+                self.progress.note("stopping: the epoch in hand is given up, the log is written (once more: at once)")
                 told = True
             if event is None:
                 continue
@@ -287,7 +288,8 @@ class _Drive:
             "epochs": experiment.length,
             "schedule": experiment.schedule,
             "replay": "" if self.replay is None else str(self.replay.log),
-            "patience": self.deadlines.epoch,
+            # Longer than the driver waits for a host that hangs: it knows whose fault it is.
+            "patience": PATIENCE * self.deadlines.epoch,
         }
         plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.path)
         return tuple(replace(plan, **changes) for plan in plans)

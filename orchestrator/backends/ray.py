@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import logging
 import math
+import tempfile
 import time
 from collections import deque
 from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
 from genome.errors import InputError
-from islands.host import HostPlan
+from islands.host import HostPlan, Step
 from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
 from orchestrator.backends.apart import sessions_of_their_own
 from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
@@ -21,11 +22,13 @@ from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError
 
 OBJECT_STORE_BYTES: Final = 100 * 2**20
 
+ANSWER_S: Final = 5.0
+"""A host that is asked what it is at says so within this time, however busy it is, unless it hangs for good."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
     what: Spawn | Advance | Finish
-    deadline: float
     seconds: float
 
 
@@ -56,6 +59,10 @@ class RayBackend:
         self._pending: dict[Any, _Pending] = {}
         self._addresses: dict[int, Any] = {}
         self._told: dict[int, int] = {}
+        # When the oldest call of each host began.
+        self._since: dict[int, float] = {}
+        # Where the letterboxes of a local Ray stand: here, so that they go with the driver whatever becomes of hosts.
+        self._mail: tempfile.TemporaryDirectory[str] | None = None
         self._connected = False
         self._events: deque[Event] = deque()
         self._ledger = Ledger()
@@ -124,7 +131,10 @@ class RayBackend:
                 from islands.actor import host_actor
 
                 share = math.floor(min(1.0, self._cpus / self._count) * 1e4) / 1e4
-                self._actors[host] = host_actor(share).remote(self._plans[host])
+                if self._address is None and self._mail is None:
+                    self._mail = tempfile.TemporaryDirectory(prefix="atoll-")
+                mail = "" if self._mail is None else self._mail.name
+                self._actors[host] = host_actor(share).remote(self._plans[host], mail)
                 self._expect(self._actors[host].ready.remote(), instruction, self._deadlines.start)
             case Advance(host, through, horizon, settled):
                 self._connect()
@@ -148,19 +158,15 @@ class RayBackend:
             actor.connect.remote({other: peer for other, peer in everyone.items() if other != host})
 
     def _patience(self, host: int, through: int) -> float:
-        """Give how long a call may take.
-
-        Calls of several epochs are made where these took a moment together. Hosts wait for each other only for as long
-        as one epoch may take, and then say for whom: one that waits is given that time besides.
-        """
+        """Give how long a call may take; calls of several epochs are made where these took a moment together."""
         epochs = through - self._told.get(host, -1)
         self._told[host] = through
-        return self._deadlines.epoch * (min(epochs, 2) + (self._plans[host].schedule != "barrier"))
+        return self._deadlines.epoch * min(epochs, 2)
 
     def _expect(self, reference: Any, what: Spawn | Advance | Finish, seconds: float) -> None:  # noqa: ANN401
-        # A host's calls come one after the other.
-        begins = [pending.deadline for pending in self._pending.values() if pending.what.host == what.host]
-        self._pending[reference] = _Pending(what, max([time.monotonic(), *begins]) + seconds, seconds)
+        if all(pending.what.host != what.host for pending in self._pending.values()):
+            self._since[what.host] = time.monotonic()
+        self._pending[reference] = _Pending(what, seconds)
 
     def wait(self, seconds: float) -> Event | None:
         """Give the next answer, death, or passed deadline."""
@@ -175,16 +181,40 @@ class RayBackend:
         oldest = {pending.what.host: reference for reference, pending in reversed(self._pending.items())}
         done, _ = ray.wait(list(oldest.values()), num_returns=1, timeout=seconds)
         for reference in done:
-            self._events.append(self._answer(reference, self._pending.pop(reference)))
-        if not done:
-            now = time.monotonic()
-            for reference, pending in list(self._pending.items()):
-                if now > pending.deadline:
-                    del self._pending[reference]
-                    host = pending.what.host
-                    text = f"host {host} did not {_doing(pending.what)} within {pending.seconds:g} s"
-                    self._events.append(HostFailed(host, text, alive=False))
+            pending = self._pending.pop(reference)
+            # A host's calls come one after the other: the next one's time begins here.
+            self._since[pending.what.host] = time.monotonic()
+            self._events.append(self._answer(reference, pending))
+        for host, reference in oldest.items():
+            if reference in self._pending and time.monotonic() > self._since[host] + self._pending[reference].seconds:
+                self._overdue(host, self._pending[reference])
         return self._events.popleft() if self._events else None
+
+    def _overdue(self, host: int, pending: _Pending) -> None:
+        """Give a host up that has not answered in time, unless it is others that it waits for."""
+        step = self._step_of(host) if isinstance(pending.what, Advance) else None
+        if step is not None and not step.island:
+            self._since[host] = time.monotonic()
+            return
+        text = f"host {host} did not {_doing(pending.what)} within {pending.seconds:g} s"
+        if step is not None:
+            text += f" (it has been in epoch {step.epoch} of island {step.island} for {step.seconds:.1f} s)"
+        self._pending = {other: one for other, one in self._pending.items() if one.what.host != host}
+        self._events.append(HostFailed(host, text, alive=False))
+
+    def _step_of(self, host: int) -> Step | None:
+        """Ask a host what it is at; ``None`` when it does not even say that."""
+        import ray
+
+        from islands.actor import CONTROL
+
+        asked = self._actors[host].step.options(concurrency_group=CONTROL).remote()
+        try:
+            found = ray.get(asked, timeout=ANSWER_S)
+        except ray.exceptions.RayError:
+            return None
+        assert isinstance(found, Step)
+        return found
 
     def _answer(self, reference: Any, pending: _Pending) -> Event:  # noqa: ANN401 - Ray's references
         import ray
@@ -226,6 +256,9 @@ class RayBackend:
 
         self._pending, self._actors = {}, {}
         ray.shutdown()
+        if self._mail is not None:
+            self._mail.cleanup()
+            self._mail = None
 
 
 def _doing(what: Spawn | Advance | Finish) -> str:
