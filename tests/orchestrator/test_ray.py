@@ -190,6 +190,17 @@ def _holds_islands(process: psutil.Process) -> bool:
 
 
 @pytest.mark.ray
+def test_a_host_that_hangs_is_given_up_and_its_island_named_whoever_waits_for_it(tmp_path, clean) -> None:
+    data = bits(backend="ray", hosts=2, schedule="dataflow", deadlines={"epoch": 1})
+    data["islands"]["south"]["growth"]["delay_ms"] = 1e6
+    process = start(tmp_path, data)
+    out, err = process.communicate(timeout=120)
+    assert (process.returncode, out) == (1, "")
+    assert "host 1 did not finish epoch 0 within 1 s (it has been in epoch 0 of island south for " in err
+    assert "Traceback" not in err
+
+
+@pytest.mark.ray
 def test_a_plug_in_that_fails_on_the_host_leaves_no_folder(tmp_path, clean) -> None:
     data = bits(backend="ray", hosts=1)
     data["islands"]["north"]["growth"]["only_in_driver"] = True
