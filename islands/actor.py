@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, final
 
@@ -15,9 +14,6 @@ CONTROL: Final = "control"
 
 MAIL: Final = "mail"
 """The concurrency group of ``deliver``: letters come while ``advance`` runs."""
-
-SWITCH_S: Final = 0.0005
-"""How long a thread of a host may keep the others waiting; Python's own 5 ms are longer than a short epoch."""
 
 UNANSWERED: Final = 4
 """Letters to one host that may be on their way under ``async``, where nobody waits for them."""
@@ -43,7 +39,6 @@ class HostActor:
     """
 
     def __init__(self, plan: HostPlan, mail: str = "") -> None:
-        sys.setswitchinterval(SWITCH_S)
         self._plan = plan
         self._host = Host(plan, post=self._post)
         self._letterbox = (
