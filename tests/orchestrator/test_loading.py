@@ -249,4 +249,8 @@ def test_only_an_elite_that_is_kept_has_to_be_smaller_than_the_deme(tmp_path) ->
         data = bits(channels=[])
         data["defaults"] |= {"population": 1, "algorithm": algorithm}
         del data["islands"]["south"]["population"]
-        prepare(load_experiment(write(tmp_path, data)))
+        plan, _ = prepare(load_experiment(write(tmp_path, data)))
+        assert [(spec.population, spec.algorithm.elite) for spec in plan.islands] == [(1, 1)] * 4
+    data["defaults"]["algorithm"] = {"elitism": "keep"}
+    with pytest.raises(InputError, match="less than the population of 1, got 1"):
+        load_experiment(write(tmp_path, data))

@@ -28,7 +28,7 @@ class Unmade:
         raise ZeroDivisionError("no adapter\ntoday")
 
     def build(self, source: Any, target: Any) -> Any:
-        raise NotImplementedError
+        return str
 
 
 class Unbuilt(Unmade):
