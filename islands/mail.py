@@ -114,7 +114,11 @@ class Line:
     def __init__(self, address: str, patience: float) -> None:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._socket.settimeout(patience)
-        self._socket.connect(address)
+        try:
+            self._socket.connect(address)
+        except OSError:
+            self._socket.close()
+            raise
 
     def send(self, letter: bytes) -> None:
         """Send a letter; one to a peer that is gone is lost, which the driver will hear of from elsewhere.
