@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import final
 
 from genome.settings import Settings
-from orchestrator.topology.lattice import Side, sides
-from orchestrator.topology.protocol import Ground, Link, as_links, both_ways
+from orchestrator.topology.lattice import Side, laid
+from orchestrator.topology.protocol import Ground, Link
 
 
 @final
@@ -24,9 +24,4 @@ class Grid(Settings):
 
     def links(self, ground: Ground) -> list[Link]:
         """Give the edges, both ways; none for a single island."""
-        if ground.count == 1:
-            return []
-        rows, columns = sides(ground.count, self.rows, self.columns, "line")
-        right = ((r * columns + c, r * columns + c + 1) for r in range(rows) for c in range(columns - 1))
-        down = ((r * columns + c, (r + 1) * columns + c) for r in range(rows - 1) for c in range(columns))
-        return as_links(both_ways([*right, *down]))
+        return laid(ground, self.rows, self.columns, "line", closed=False)

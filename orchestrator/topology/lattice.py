@@ -8,11 +8,35 @@ from typing import Annotated, Final
 from pydantic import Field
 
 from genome.errors import InputError
+from orchestrator.topology.protocol import Ground, Link, as_links, both_ways
 
 LEAST: Final = 2
 """Rows and columns that a lattice has at least; with one it is a line or a ring."""
 
 Side = Annotated[int, Field(ge=LEAST, le=1_000_000)]
+
+
+def laid(ground: Ground, rows: int | None, columns: int | None, instead: str, *, closed: bool) -> list[Link]:
+    """Give the edges of a lattice, both ways; none for a single island.
+
+    Parameters
+    ----------
+    ground
+        The islands.
+    rows, columns, instead
+        As for :func:`sides`.
+    closed
+        Whether each row and column ends where it begins.
+    """
+    if ground.count == 1:
+        return []
+    rows, columns = sides(ground.count, rows, columns, instead)
+    open_ends = 0 if closed else 1
+    right = (
+        (r * columns + c, r * columns + (c + 1) % columns) for r in range(rows) for c in range(columns - open_ends)
+    )
+    down = ((r * columns + c, (r + 1) % rows * columns + c) for r in range(rows - open_ends) for c in range(columns))
+    return as_links(both_ways([*right, *down]))
 
 
 def sides(count: int, rows: int | None, columns: int | None, instead: str) -> tuple[int, int]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import final
 
 from genome.settings import Settings
-from orchestrator.topology.lattice import Side, sides
-from orchestrator.topology.protocol import Ground, Link, as_links, both_ways
+from orchestrator.topology.lattice import Side, laid
+from orchestrator.topology.protocol import Ground, Link
 
 
 @final
@@ -26,9 +26,4 @@ class Torus(Settings):
 
     def links(self, ground: Ground) -> list[Link]:
         """Give the edges, both ways; none for a single island."""
-        if ground.count == 1:
-            return []
-        rows, columns = sides(ground.count, self.rows, self.columns, "bidirectional_ring")
-        right = ((r * columns + c, r * columns + (c + 1) % columns) for r in range(rows) for c in range(columns))
-        down = ((r * columns + c, (r + 1) % rows * columns + c) for r in range(rows) for c in range(columns))
-        return as_links(both_ways([*right, *down]))
+        return laid(ground, self.rows, self.columns, "bidirectional_ring", closed=True)
