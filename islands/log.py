@@ -106,10 +106,14 @@ class LogWriter:
         return files
 
     def warm(self) -> None:
-        """Import what writing needs, so that no epoch has to wait for it."""
+        """Import what writing needs, so that no epoch has to wait for it: some of it comes with the first table."""
         import pyarrow.parquet as pq
 
         del pq
+        for name in TABLES:
+            if name != "events":
+                self._table(name, ())
+        events_table(self._run, ())
 
     def drop(self) -> None:
         """Forget what is buffered."""
