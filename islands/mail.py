@@ -1,7 +1,7 @@
 """Letters between hosts on one machine: Unix sockets, which are ten times as quick as a call from actor to actor.
 
 A letterbox listens under a path in a folder that only this user can enter, until all its peers have connected; then the
-path goes. It has no thread of its own: a thread that reads would wait for the interpreter's lock for as long as the host
+path goes. It has no thread of its own: one that reads would wait for the interpreter's lock for as long as the host
 computes, and then take it away from the host. The host looks in between two steps, which costs microseconds. Letters
 that a peer's socket has no room for stay here and go out as the host looks in again.
 """
@@ -112,7 +112,7 @@ class Letterbox:
         self._doors.register(self._listener, selectors.EVENT_READ)
         self._bell, self._rope = socket.socketpair()
         for end in (self._bell, self._rope):
-            end.setblocking(False)
+            end.settimeout(0.0)
         self._doors.register(self._bell, selectors.EVENT_READ)
         self._expected = 0
         self._drafts: dict[socket.socket, bytearray] = {}
@@ -138,7 +138,7 @@ class Letterbox:
             except OSError:
                 door.close()
                 raise
-            door.setblocking(False)
+            door.settimeout(0.0)
             self._lines[host] = _Line(door)
 
     def reaches(self, host: int) -> bool:
@@ -214,7 +214,7 @@ class Letterbox:
 
     def _let_in(self) -> None:
         door, _ = self._listener.accept()
-        door.setblocking(False)
+        door.settimeout(0.0)
         self._drafts[door] = bytearray()
         self._doors.register(door, selectors.EVENT_READ)
         self._expected -= 1
