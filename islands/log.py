@@ -39,6 +39,13 @@ class Event(NamedTuple):
     detail: dict[str, Any]
 
 
+class LogFile(NamedTuple):
+    """A file that was written: its name in the ``log`` folder, and its size in bytes."""
+
+    name: str
+    bytes: int
+
+
 @final
 class LogWriter:
     """Buffers the records of some islands and writes them.
@@ -53,16 +60,26 @@ class LogWriter:
         The islands whose records will come; their numbers are in the files' names.
     calendar
         Stamps events.
+    begun
+        Whether each table has a file already, as in a run that goes on from a checkpoint.
     """
 
-    def __init__(self, folder: Path, run: str, islands: Sequence[IslandSpec], calendar: Calendar) -> None:
+    def __init__(
+        self, folder: Path, run: str, islands: Sequence[IslandSpec], calendar: Calendar, *, begun: bool = False
+    ) -> None:
         self._folder = folder
         self._run = run
         self._islands = {spec.number: spec for spec in islands}
         self._calendar = calendar
         self._buffer: list[tuple[int, int, Records]] = []
         self._events: list[Event] = []
-        self._begun = False
+        self._files: list[LogFile] = []
+        self._begun = begun
+
+    @property
+    def files(self) -> tuple[LogFile, ...]:
+        """What it has written, in order."""
+        return tuple(self._files)
 
     def add(self, island: int, epoch: int, records: Records) -> None:
         """Take the records of one island in one epoch."""
@@ -95,15 +112,23 @@ class LogWriter:
         epochs = [epoch for epoch, _, _ in parts] or [event.epoch or 0 for event in events]
         span = f"e{min(epochs):06d}-{max(epochs):06d}-i{min(self._islands):05d}-{max(self._islands):05d}"
         if not parts:
-            span = f"{span}-after"
+            span = self._free(f"{span}-after")
         tables = {name: self._table(name, parts) for name in TABLES if name != "events"}
         tables["events"] = events_table(self._run, events)
         wanted = {name: table for name, table in tables.items() if table.num_rows or not self._begun}
         files = [write(self._folder, name, span, table) for name, table in wanted.items()]
         self._buffer = [part for part in self._buffer if part[0] > through]
         self._events = [event for event in self._events if (event.epoch or 0) > through]
+        self._files.extend(LogFile(f"{path.parent.name}/{path.name}", path.stat().st_size) for path in files)
         self._begun = True
         return files
+
+    def _free(self, span: str) -> str:
+        """Give the span, or with a number after it where a file of events has it: one that a checkpoint may list."""
+        found, number = span, 2
+        while (self._folder / "events" / f"{found}.parquet").exists():
+            found, number = f"{span}-{number}", number + 1
+        return found
 
     def warm(self) -> None:
         """Import what writing needs, so that no epoch has to wait for it."""

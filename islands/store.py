@@ -129,6 +129,10 @@ class Store(ABC):
         """Give the names of the folders right below a folder, as :meth:`names`."""
 
     @abstractmethod
+    def sizes(self, folder: str = "") -> dict[str, int]:
+        """Give the files right below a folder as :meth:`names`, each with its length in bytes, at one request."""
+
+    @abstractmethod
     def remove(self, name: str) -> None:
         """Remove a file, if it is there."""
 
