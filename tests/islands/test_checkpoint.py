@@ -75,7 +75,7 @@ def test_what_is_read_is_to_the_bit_what_was_written(name, tmp_path_factory) -> 
     isles = [island(number, kind=kind, **changes) for number in (7, 2, 4)]
     store = Store.open(tmp_path_factory.mktemp("run"))
 
-    @settings(max_examples=40, deadline=None)
+    @settings(max_examples=15, deadline=None)
     @given(st.data())
     def holds(data) -> None:
         kept = [
