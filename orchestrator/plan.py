@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from genome.errors import InputError
-from islands.host import HostPlan
 from islands.migration.channel import Edge
 from islands.migration.routes import Redrawn
+from islands.orders import HostPlan
 from islands.spec import IslandSpec
 from islands.store import Anywhere, Store
 from orchestrator.loading import Loaded

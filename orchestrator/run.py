@@ -14,12 +14,12 @@ from typing import Any, Final
 from evaluators.plugins import guarded
 from genome.errors import InputError
 from genome.settings import describe
-from islands.host import HostPlan
 from islands.kinds.registry import resolve_kind
 from islands.kinds.trade import check_biology
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
 from islands.migration.channel import Channel
+from islands.orders import HostPlan
 from islands.store import Store, StoreError
 from islands.tally import IslandSummary
 from orchestrator import archipelago as machine

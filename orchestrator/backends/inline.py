@@ -6,8 +6,9 @@ from collections import deque
 from typing import final
 
 from genome.errors import InputError
-from islands.host import Host, HostPlan
-from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
+from islands.host import Host
+from islands.orders import HostPlan
+from orchestrator.messages import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
 from orchestrator.backends.protocol import Deadlines, Ledger
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol, final
 
-from islands.host import Advanced, HostPlan
+from islands.orders import Advanced, HostPlan
 from islands.tally import IslandSummary
-from orchestrator.archipelago import Advance, AskStop, EpochAbandoned, EpochDone, Event, Finish, HostFailed, Spawn
+from orchestrator.messages import Advance, AskStop, EpochAbandoned, EpochDone, Event, Finish, HostFailed, Spawn
 
 
 @dataclass(frozen=True, slots=True)

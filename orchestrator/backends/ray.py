@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
 from genome.errors import InputError
-from islands.host import HostPlan, Step
-from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
+from islands.orders import HostPlan, Step
+from orchestrator.messages import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
 from orchestrator.backends.apart import sessions_of_their_own
 from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, send_home_helpers, settle_environment
 from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError

@@ -29,9 +29,9 @@ class Far:
         self.calls.append(given)
         return self
 
-    def remote(self, letter: bytes) -> None:
+    def remote(self, letter: bytes, turn: int) -> None:
         if self.answers:
-            self.actor.deliver(letter)
+            self.actor.deliver(letter, turn)
 
 
 @pytest.fixture
