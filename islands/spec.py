@@ -35,6 +35,8 @@ class IslandSpec:
         The experiment's file name, for messages.
     base
         The folder that file names in the settings are relative to.
+    since, until
+        It begins in the epoch ``since``, and steps in epochs before ``until``; in all of them without one.
     """
 
     name: str
@@ -49,6 +51,12 @@ class IslandSpec:
     algorithm: Algorithm
     source: str
     base: str
+    since: int = 0
+    until: int | None = None
+
+    def is_there(self, epoch: int) -> bool:
+        """Tell whether it steps in an epoch."""
+        return self.since <= epoch and (self.until is None or epoch < self.until)
 
     def where(self, *keys: str) -> str:
         """Give the place of a key of this island for an error message."""

@@ -15,6 +15,7 @@ COMMANDS: Final = {
     "check": "Validate a file without running it.",
     "validate": "Reproduce published behaviour of island models.",
     "show": "Show how a run stands.",
+    "steer": "Intervene in a running run.",
     "query": "Put an SQL query to a run's log.",
     "digest": "Give one hash of what happened in a run.",
     "replay": "Regrow a logged individual and score it again.",

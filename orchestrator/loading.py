@@ -82,7 +82,7 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
         changed = apply_overrides(data, overrides)
         changed.setdefault("name", re.sub(r"[^A-Za-z0-9_-]+", "-", path.name.split(".")[0]).strip("-_") or "run")
         notes = ["checkpoint: accepted, but this version writes no checkpoints yet"] if "checkpoint" in changed else []
-        experiment = _resolved(changed, source)
+        experiment = resolved(changed, source)
         notes.extend((*lonely(experiment, source), *idle(experiment, source)))
         return Loaded(experiment, source, path.resolve().parent, tuple(notes), locate)
     except InputError as error:
@@ -104,7 +104,14 @@ def located(error: InputError, source: str, line_of: LineOf, overrides: Sequence
     return InputError(where, error.expected, error.got, error.remedy)
 
 
-def _resolved(data: dict[str, Any], source: str) -> Experiment:
+def resolved(data: dict[str, Any], source: str) -> Experiment:
+    """Resolve an experiment's data: what :func:`load_experiment` does once they are read.
+
+    Raises
+    ------
+    InputError
+        For the first thing that is wrong.
+    """
     defaults = data.pop("defaults", None)
     if defaults is not None:
         validated(IslandDefaults, defaults, source, ("defaults",))

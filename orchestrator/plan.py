@@ -35,7 +35,7 @@ def make_plan(loaded: Loaded) -> Plan:
     InputError
         For islands of one name, and for all that :func:`~orchestrator.wiring.wire` refuses.
     """
-    islands = _islands(loaded)
+    islands = islands_of(loaded)
     wired = wire(loaded.experiment, islands, loaded.source, loaded.base)
     edges = tuple(edge for one in wired for edge in one.edges)
     return Plan(islands, edges, tuple(one.redrawn for one in wired if one.redrawn is not None))
@@ -79,7 +79,14 @@ def _foreign(plan: Plan, placement: Sequence[int], host: int) -> tuple[IslandSpe
     return tuple(plan.islands[source] for source in sorted(sources) if placement[source] != host)
 
 
-def _islands(loaded: Loaded) -> tuple[IslandSpec, ...]:
+def islands_of(loaded: Loaded) -> tuple[IslandSpec, ...]:
+    """Give the islands of an experiment in the order of their numbers.
+
+    Raises
+    ------
+    InputError
+        For islands of one name.
+    """
     specs: list[IslandSpec] = []
     groups: dict[str, str] = {}
     for group, settings in loaded.experiment.islands.items():

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import platform
-from typing import Any
+from typing import Any, Final
 
 from orchestrator.folder import RunFolder
 from orchestrator.query import as_rows, ask
 from orchestrator.regrow import best
+
+GOING: Final = ("running", "paused")
+"""Statuses of a run that has not ended."""
 
 ISLANDS = """
     with latest as (
@@ -44,7 +47,7 @@ def standing(folder: RunFolder) -> dict[str, Any]:
     return {
         "run": folder.name,
         "status": manifest.get("status"),
-        "alive": _alive(manifest),
+        "alive": alive(manifest),
         "error": manifest.get("error", ""),
         "started": manifest.get("started"),
         "ended": manifest.get("ended"),
@@ -56,8 +59,9 @@ def standing(folder: RunFolder) -> dict[str, Any]:
     }
 
 
-def _alive(manifest: dict[str, Any]) -> bool | None:
-    if manifest.get("status") != "running" or manifest.get("machine") != platform.node():
+def alive(manifest: dict[str, Any]) -> bool | None:
+    """Tell whether the process of a run that is marked as going on is there; ``None`` where that cannot be known."""
+    if manifest.get("status") not in GOING or manifest.get("machine") != platform.node():
         return None
     try:
         os.kill(int(manifest["process"]), 0)

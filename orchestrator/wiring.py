@@ -67,9 +67,20 @@ def wire(experiment: Experiment, islands: Sequence[IslandSpec], source: str, bas
         For two channels of one name, islands that are not there, a topology that does not fit them, islands that have
         nothing to exchange, more migrants than members, or an island that nobody reaches.
     """
+    fits = Compatibility(islands)
+    wired = wired_channels(experiment, islands, source, base, fits)
+    _refuse_needy(wired, islands, fits)
+    refuse_emptied(wired, islands)
+    _refuse_unreached(wired, islands, source)
+    return wired
+
+
+def wired_channels(
+    experiment: Experiment, islands: Sequence[IslandSpec], source: str, base: Path, fits: Compatibility
+) -> tuple[Wired, ...]:
+    """Wire all channels of an experiment, each looked at by itself; as :func:`wire` otherwise."""
     names: dict[str, int] = {}
     wired = []
-    fits = Compatibility(islands)
     for number, settings in enumerate(experiment.channels):
         where = f"{source}: channels.{number}"
         name = settings.name or f"{settings.kind}-{number}"
@@ -79,9 +90,6 @@ def wire(experiment: Experiment, islands: Sequence[IslandSpec], source: str, bas
         one = _Wiring(experiment, islands, base, number, name).wired(settings, where)
         fits.check(one.settings, one.edges, one.redrawn, where)
         wired.append(one)
-    _refuse_needy(wired, islands, fits)
-    _refuse_emptied(wired, islands)
-    _refuse_unreached(wired, islands, source)
     return tuple(wired)
 
 
@@ -175,20 +183,25 @@ class _Wiring:
         return [Link(*pair) for pair in pairs], [*sources, *targets]
 
 
-def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility) -> None:
-    """Refuse an island whose kind needs a channel of some kind that never reaches it."""
+def needy(
+    wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility
+) -> list[tuple[IslandSpec, ChannelKind]]:
+    """Give the islands whose kinds need a channel of some kind that never reaches them, and which kind of channel."""
     fed: dict[ChannelKind, set[int]] = defaultdict(set)
     for one in wired:
         fed[one.channel.kind] |= _entered(one)
-    for spec in islands:
-        for kind in fits.needs(spec):
-            if spec.number not in fed[kind]:
-                expected = f"a channel of kind {kind} to {spec.name}, which it needs"
-                remedy = f"{kind} missing: add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels'"
-                raise InputError(spec.where("kind"), expected, "none", remedy)
+    return [(spec, kind) for spec in islands for kind in fits.needs(spec) if spec.number not in fed[kind]]
 
 
-def _refuse_emptied(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:
+def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility) -> None:
+    """Refuse an island whose kind needs a channel of some kind that never reaches it."""
+    for spec, kind in needy(wired, islands, fits):
+        expected = f"a channel of kind {kind} to {spec.name}, which it needs"
+        remedy = f"{kind} missing: add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels'"
+        raise InputError(spec.where("kind"), expected, "none", remedy)
+
+
+def refuse_emptied(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:
     """Refuse channels that move so many at a time that none is left."""
     leaving: dict[int, int] = defaultdict(int)
     last: dict[int, str] = {}
