@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any, Final, cast
 
 from genome.errors import InputError
 from genome.settings import describe
 from islands.migration.channel import Edge, Packet
 from islands.spec import IslandSpec
+from islands.store import Anywhere, Store
 
 SIZED: Final = ("channel", "source", "epoch", "number of travellers")
 """What the event tells of each packet."""
@@ -48,26 +48,31 @@ def arrivals_detail(packets: Sequence[Packet], edges: Iterable[Edge], before: in
     }
 
 
-def recorded_arrivals(log: Path, islands: Iterable[IslandSpec]) -> Record:
+def recorded_arrivals(log: Anywhere, islands: Iterable[IslandSpec]) -> Record:
     """Read from a run's ``log`` folder what some islands took in."""
     return {place: [mark[:3] for mark in marks] for place, marks in recorded_sizes(log, islands).items()}
 
 
-def recorded_sizes(log: Path, islands: Iterable[IslandSpec]) -> Sizes:
+def recorded_sizes(log: Anywhere, islands: Iterable[IslandSpec]) -> Sizes:
     """Read the ``arrivals`` events of some islands from a run's ``log`` folder; of other schedules there are none."""
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
+    store = Store.open(log)
     numbers = {spec.name: spec.number for spec in islands}
     record: Sizes = {}
-    for path in sorted((log / "events").glob("*.parquet")):
-        table = pq.read_table(path, columns=["island", "epoch", "kind", "detail"], filters=[("kind", "=", "arrivals")])
+    for name in [f"events/{name}" for name in store.names("events") if name.endswith(".parquet")]:
+        source = pa.BufferReader(store.read(name))
+        table = pq.read_table(
+            source, columns=["island", "epoch", "kind", "detail"], filters=[("kind", "=", "arrivals")]
+        )
         for row in table.to_pylist():
             if row["island"] in numbers:
-                record[numbers[row["island"]], row["epoch"]] = _marks(row["detail"], row["epoch"], path)
+                record[numbers[row["island"]], row["epoch"]] = _marks(row["detail"], row["epoch"], name)
     return record
 
 
-def _marks(detail: str, epoch: int, path: Path) -> list[tuple[int, int, int, int]]:
+def _marks(detail: str, epoch: int, name: str) -> list[tuple[int, int, int, int]]:
     """Read one event; what cannot have happened would let a replay wait for ever."""
     try:
         marks = [(*map(int, mark),) for mark in json.loads(detail)["packets"]]
@@ -76,6 +81,4 @@ def _marks(detail: str, epoch: int, path: Path) -> list[tuple[int, int, int, int
     except (ValueError, KeyError, TypeError):
         pass
     expected = f"packets taken in at the start of epoch {epoch}, each [{', '.join(SIZED)}] with an earlier epoch"
-    raise InputError(
-        f"{path.parent.name}/{path.name}", expected, describe(detail), "the log was changed, or is not whole"
-    )
+    raise InputError(name, expected, describe(detail), "the log was changed, or is not whole")

@@ -16,6 +16,7 @@ from islands.individual import Individual, Scores
 from islands.kinds.protocol import Biology
 from islands.migration.channel import Migrant
 from islands.state import Deme, State
+from islands.steered import Steered
 from islands.tally import Champion
 
 MEMBER: Final = ("ids", "genotypes", "fitness", "scores", "errors", "since")
@@ -53,6 +54,7 @@ def state_text(state: State[Any], champion: Champion | None) -> str:
             "best": state.best,
             "stagnant": state.stagnant,
             "scoring": state.scoring,
+            "steered": state.steered.to_json(),
             "held": {} if held == NOTHING else held._asdict(),
             "champion": champion,
         },
@@ -78,6 +80,7 @@ def read_state(text: str, deme: Deme[Any]) -> tuple[State[Any], Champion | None]
         stagnant=told["stagnant"],
         held=_holdings(told["held"]),
         scoring=told["scoring"],
+        steered=Steered.from_json(told["steered"]),
     )
     champion = told["champion"]
     return state, None if champion is None else (champion[0], champion[1])

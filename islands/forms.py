@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from genome.errors import InputError
 from islands.individual import Individual
 from islands.island import Island
 from islands.selection import ranked
+from islands.store import Store
 
 
 def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int) -> list[Individual[Any]]:
@@ -29,11 +31,11 @@ def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int)
 def write_forms(
     island: Island[Any],
     members: Sequence[Individual[Any]],
-    folder: Path,
+    folder: Store,
     run: str,
     failed: Callable[[dict[str, Any]], None],
 ) -> list[str]:
-    """Write members' forms as ``ISLAND-best1``, ``ISLAND-best2``, ...; give the files.
+    """Write members' forms as ``ISLAND-best1``, ``ISLAND-best2``, ...; give the files' names.
 
     Parameters
     ----------
@@ -42,7 +44,7 @@ def write_forms(
     members
         Best first.
     folder
-        Where the files go; it exists.
+        Where the files go. Kinds write to a disk: they write to a folder of this machine first.
     run
         The run's name, for the files' own facts.
     failed
@@ -50,17 +52,18 @@ def write_forms(
     """
     files: list[str] = []
     for rank, member in enumerate(members, start=1):
-        stem = folder / f"{island.spec.name}-best{rank}"
         facts: dict[str, str | float | bool] = {
             "run": run,
             "island": island.spec.name,
             "id": str(member.id),
             "fitness": member.fitness or 0.0,
         }
-        try:
-            written = island.biology.write_forms(member.genotype, stem, (), facts)
-        except InputError as error:
-            failed({"id": member.id, "detail": str(error)})
-            continue
-        files.extend(str(path) for path in written)
+        with tempfile.TemporaryDirectory(prefix="atoll-") as here:
+            stem = Path(here) / f"{island.spec.name}-best{rank}"
+            try:
+                for path in island.biology.write_forms(member.genotype, stem, (), facts):
+                    folder.write(path.name, path.read_bytes())
+                    files.append(path.name)
+            except InputError as error:
+                failed({"id": member.id, "detail": str(error)})
     return files

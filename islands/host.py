@@ -14,7 +14,6 @@ from collections import defaultdict, deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import Any, Final, Literal, NamedTuple, final
 
 from genome.errors import InputError
@@ -22,6 +21,7 @@ from growth.protocol import Clock
 from islands.agenda import Agenda, Complete, Present, Recorded, Rule, ranks
 from islands.arrivals import arrivals_detail, recorded_arrivals
 from islands.forms import best_forms, write_forms
+from islands.inputs import inputs_here
 from islands.island import Island
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
@@ -30,6 +30,7 @@ from islands.migration.channel import Edge, Packet
 from islands.migration.routes import Redrawn, Routes
 from islands.spec import IslandSpec
 from islands.state import Advance, State
+from islands.store import Store
 from islands.tally import IslandSummary, Tally
 
 Schedule = Literal["barrier", "dataflow", "async"]
@@ -62,7 +63,7 @@ class HostPlan:
     run, seed
         The run's name and seed.
     folder
-        The run's folder.
+        The run's folder: the place of a store.
     islands
         Its islands, in order.
     edges
@@ -142,7 +143,7 @@ class Step(NamedTuple):
 
 
 class Finished(NamedTuple):
-    """What a host left behind: the paths of its forms, and how its islands stood at the end of the log."""
+    """What a host left behind: the names of its forms, and how its islands stood at the end of the log."""
 
     forms: tuple[str, ...]
     summaries: tuple[IslandSummary, ...]
@@ -201,7 +202,7 @@ class Host:
         self._routes = Routes(plan.edges, plan.redrawn, plan.seed)
         self._agenda = Agenda((), Present())
         self._tally = Tally(plan.islands)
-        self._log = LogWriter(Path(plan.folder) / "log", plan.run, plan.islands, calendar)
+        self._log = LogWriter(Store.open(plan.folder).at("log"), plan.run, plan.islands, calendar)
 
     def ready(self) -> int:
         """Make the islands; to be called once, before all else. Gives the host's number.
@@ -213,7 +214,14 @@ class Host:
         """
         pin_threads()
         self._log.warm()
-        plan = self._plan
+        with inputs_here(self._plan) as plan:
+            self._islands = self._made(plan)
+        # Where nobody waits, nobody is to be kept supplied.
+        order = {} if plan.schedule != "dataflow" else ranks(plan.placement, plan.host, plan.edges)
+        self._agenda = Agenda(self._islands, self._rule(), order)
+        return plan.host
+
+    def _made(self, plan: HostPlan) -> dict[int, Island[Any]]:
         # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
         # need no ten thousand environments.
         groups = {spec.group: spec for spec in plan.islands}
@@ -221,7 +229,7 @@ class Host:
             name: resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock) for name, spec in groups.items()
         }
         strangers = _strangers(plan)
-        self._islands = {
+        return {
             spec.number: Island(
                 spec,
                 biology[spec.group],
@@ -233,16 +241,12 @@ class Host:
             )
             for spec in plan.islands
         }
-        # Where nobody waits, nobody is to be kept supplied.
-        order = {} if plan.schedule != "dataflow" else ranks(plan.placement, plan.host, plan.edges)
-        self._agenda = Agenda(self._islands, self._rule(), order)
-        return plan.host
 
     def _rule(self) -> Rule:
         if self._plan.schedule != "async":
             return Complete(self._routes)
         if self._plan.replay:
-            return Recorded(recorded_arrivals(Path(self._plan.replay), self._plan.islands))
+            return Recorded(recorded_arrivals(self._plan.replay, self._plan.islands))
         return Present()
 
     # -- what may be called from another thread ------------------------------------------------------------------
@@ -414,14 +418,13 @@ class Host:
         states = self._history.get(through, {})
         files: list[str] = []
         if forms and states:
-            folder = Path(self._plan.folder) / "forms"
-            folder.mkdir(parents=True, exist_ok=True)
+            folder = Store.open(self._plan.folder).at("forms")
             for number, island in self._islands.items():
                 files.extend(self._write_forms(island, states[number], folder))
             self._log.flush()
         return Finished(tuple(files), self._tally.since(settled, through) if through > settled else ())
 
-    def _write_forms(self, island: Island[Any], state: State[Any], folder: Path) -> Sequence[str]:
+    def _write_forms(self, island: Island[Any], state: State[Any], folder: Store) -> Sequence[str]:
         def failed(detail: dict[str, Any]) -> None:
             self._log.tell(island.spec.number, state.epoch, "form", detail)
 

@@ -1,7 +1,8 @@
 """The log writer: turns records into Parquet, file by file, so that every file in a table's folder is whole.
 
-A file is written under ``log/.tmp/`` and moved into its table's folder when complete. Its name comes from the epochs
-and islands that it covers, so that the same run makes the same names.
+On a disk, a file is written under ``log/.tmp/`` and moved into its table's folder when complete; in a bucket it is
+there when it is whole. Its name comes from the epochs and islands that it covers, so that the same run makes the same
+names.
 """
 
 from __future__ import annotations
@@ -10,13 +11,13 @@ import json
 from collections.abc import Callable, Iterable, Sequence
 from datetime import datetime
 from itertools import chain
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
 
 from genome.mishaps import plain
 from islands.records import Records
 from islands.schemas import TABLES, schema, stored
 from islands.spec import IslandSpec
+from islands.store import Anywhere, Store
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -53,7 +54,7 @@ class LogWriter:
     Parameters
     ----------
     folder
-        The run's ``log`` folder; its tables' folders are made when first written to.
+        The run's ``log`` folder, in any store; its tables' folders are made when first written to.
     run
         The run's name.
     islands
@@ -65,9 +66,9 @@ class LogWriter:
     """
 
     def __init__(
-        self, folder: Path, run: str, islands: Sequence[IslandSpec], calendar: Calendar, *, begun: bool = False
+        self, folder: Anywhere, run: str, islands: Sequence[IslandSpec], calendar: Calendar, *, begun: bool = False
     ) -> None:
-        self._folder = folder
+        self._folder = Store.open(folder)
         self._run = run
         self._islands = {spec.number: spec for spec in islands}
         self._calendar = calendar
@@ -93,8 +94,8 @@ class LogWriter:
         """Take an event of one island."""
         self._events.append(Event(self._islands[island].name, self._calendar(), epoch, kind, detail))
 
-    def flush(self, through: int = ALL) -> list[Path]:
-        """Write what is buffered, one file for each table that has rows; give the files.
+    def flush(self, through: int = ALL) -> list[str]:
+        """Write what is buffered, one file for each table that has rows; give the files' names in the folder.
 
         The first time each table gets its file, with rows or without, so that a plain glob finds every table. Each
         epoch's records come in one piece; only events may be told of an epoch that is written already, and then they
@@ -119,14 +120,14 @@ class LogWriter:
         files = [write(self._folder, name, span, table) for name, table in wanted.items()]
         self._buffer = [part for part in self._buffer if part[0] > through]
         self._events = [event for event in self._events if (event.epoch or 0) > through]
-        self._files.extend(LogFile(f"{path.parent.name}/{path.name}", path.stat().st_size) for path in files)
+        self._files.extend(LogFile(name, self._folder.size(name)) for name in files)
         self._begun = True
         return files
 
     def _free(self, span: str) -> str:
         """Give the span, or with a number after it where a file of events has it: one that a checkpoint may list."""
         found, number = span, 2
-        while (self._folder / "events" / f"{found}.parquet").exists():
+        while self._folder.exists(f"events/{found}.parquet"):
             found, number = f"{span}-{number}", number + 1
         return found
 
@@ -155,19 +156,17 @@ class LogWriter:
         return make(self._run, rows, specs)
 
 
-def write(folder: Path, table_name: str, stem: str, table: pa.Table) -> Path:
-    """Write one Parquet file under ``.tmp`` and move it into its table's folder; give its path."""
+def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> str:
+    """Write one Parquet file whole or not at all; give its name in the log's folder."""
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
-    staging = folder / ".tmp"
-    target = folder / table_name / f"{stem}.parquet"
-    staging.mkdir(parents=True, exist_ok=True)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    draft = staging / f"{table_name}-{stem}.parquet"
     dictionary, split = stored(table_name)
-    pq.write_table(table, draft, compression="zstd", use_dictionary=dictionary, use_byte_stream_split=split)
-    draft.replace(target)
-    return target
+    content = pa.BufferOutputStream()
+    pq.write_table(table, content, compression="zstd", use_dictionary=dictionary, use_byte_stream_split=split)
+    name = f"{table_name}/{stem}.parquet"
+    Store.open(folder).write(name, content.getvalue().to_pybytes(), staging=".tmp")
+    return name
 
 
 def events_table(run: str, events: Sequence[Event]) -> pa.Table:

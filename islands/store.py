@@ -38,8 +38,8 @@ class Store(ABC):
     local: Path | None
 
     @staticmethod
-    def open(place: str | Path) -> Store:
-        """Open a folder by its local path or URI; nothing is read or made yet.
+    def open(place: Anywhere) -> Store:
+        """Open a folder by its local path or URI; nothing is read or made yet. A store that is open stays as it is.
 
         Raises
         ------
@@ -48,6 +48,8 @@ class Store(ABC):
         StoreError
             When what it takes to open it cannot be reached.
         """
+        if isinstance(place, Store):
+            return place
         from islands.stores.places import is_uri, local_path
 
         text = str(place)
@@ -121,12 +123,15 @@ class Store(ABC):
         """Give a file's length in bytes; :class:`FileNotFoundError` when there is none."""
 
     @abstractmethod
-    def names(self, folder: str = "") -> list[str]:
-        """Give the names of the files right below a folder, sorted, without hidden ones; none without a folder."""
+    def names(self, folder: str = "", *, hidden: bool = False) -> list[str]:
+        """Give the names of the files right below a folder, sorted; none when there is no folder.
+
+        Those that begin with a dot are left out, unless ``hidden``.
+        """
 
     @abstractmethod
     def folders(self, folder: str = "") -> list[str]:
-        """Give the names of the folders right below a folder, as :meth:`names`."""
+        """Give the names of the folders right below a folder, without hidden ones, as :meth:`names`."""
 
     @abstractmethod
     def sizes(self, folder: str = "") -> dict[str, int]:
@@ -143,3 +148,7 @@ class Store(ABC):
     @abstractmethod
     def arrow(self) -> tuple[Any, str]:
         """Give Arrow's file system, and the folder's path in it."""
+
+
+Anywhere = Store | Path | str
+"""A store, or a place that opens one."""

@@ -10,41 +10,45 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Final
 
 from islands.schemas import CLOCKED, columns
+from islands.store import Anywhere, Store
 
 DIGESTED: Final = ("individuals", "evaluations", "generations", "migrations")
 
 
-def digest(log: Path) -> tuple[str, int]:
+def digest(log: Anywhere) -> tuple[str, int]:
     """Digest a log.
 
     Parameters
     ----------
     log
-        The run's ``log`` folder.
+        The run's ``log`` folder, in any store.
 
     Returns
     -------
     The digest in hexadecimal, and how many rows it covers.
     """
+    store = Store.open(log)
     hashes: list[bytes] = []
     for table in DIGESTED:
-        hashes.extend(hashlib.sha256(line).digest() for line in _lines(log, table))
+        hashes.extend(hashlib.sha256(line).digest() for line in _lines(store, table))
     whole = hashlib.sha256()
     for part in sorted(hashes):
         whole.update(part)
     return whole.hexdigest(), len(hashes)
 
 
-def _lines(log: Path, table: str) -> Iterator[bytes]:
+def _lines(log: Store, table: str) -> Iterator[bytes]:
+    import pyarrow as pa
     import pyarrow.parquet as pq
 
     kept = [name for name in columns(table) if name != "run" and name not in CLOCKED]
-    for path in sorted((log / table).glob("*.parquet")):
-        with pq.ParquetFile(path) as file:
+    for name in log.names(table):
+        if not name.endswith(".parquet"):
+            continue
+        with pq.ParquetFile(pa.BufferReader(log.read(f"{table}/{name}"))) as file:
             for batch in file.iter_batches(columns=kept):
                 lists = [batch.column(name).to_pylist() for name in kept]
                 for row in zip(*lists, strict=True):

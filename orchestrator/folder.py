@@ -4,33 +4,29 @@ from __future__ import annotations
 
 import contextlib
 import errno
-import io
 import json
 import os
 import platform
 import secrets
 import shutil
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
 from genome.errors import InputError
-from genome.files import write_whole
 from genome.settings import near
-from genome.yaml import parse_yaml
-from islands.kinds.protocol import Keep
-from islands.kinds.registry import resolve_kind
 from islands.schemas import VERSION
-from orchestrator.channels import ChannelSettings
+from islands.store import Anywhere, Store, StoreError
+from islands.stores.places import is_uri
+from orchestrator.at_hand import Inputs, folder_for_now
+from orchestrator.claims import claimed
+from orchestrator.keeping import EXPERIMENT, as_yaml, with_files_kept
 from orchestrator.loading import Loaded
-from orchestrator.plan import make_plan
-from orchestrator.topology.registry import kept
 
 MANIFEST: Final = "manifest.json"
-EXPERIMENT: Final = "experiment.yaml"
 DEFAULT_RUNS: Final = Path("runs")
 LONGEST_NAME: Final = 100
 """Characters of a run's name, as of an experiment's: the run's folder holds the experiment under its own name."""
@@ -39,26 +35,49 @@ TAKEN: Final = (errno.EEXIST, errno.ENOTEMPTY, errno.ENOTDIR)
 PACKAGES: Final = ("atoll", "numpy", "numba", "deap", "pyarrow", "ray", "trimesh")
 
 
+Runs = Path | Store
+"""Where run folders stand: a folder of this machine as it was written, or another store."""
+
+
 @dataclass(frozen=True, slots=True)
 class RunFolder:
-    """A run's folder that exists."""
+    """A run's folder that exists, in any store.
 
-    path: Path
+    Attributes
+    ----------
+    store
+        The folder.
+    inputs
+        Brings what is read by path.
+    """
+
+    store: Store
+    inputs: Inputs
 
     @property
-    def log(self) -> Path:
+    def path(self) -> Path:
+        """The folder on the local disk where it stands."""
+        return on_disk(self.store)
+
+    @property
+    def log(self) -> Store:
         """Where the tables' folders are."""
-        return self.path / "log"
+        return self.store.at("log")
 
     @property
     def name(self) -> str:
         """The run's name."""
-        return self.path.name
+        return self.store.name
 
     @property
     def experiment(self) -> Path:
-        """The experiment as resolved."""
-        return self.path / EXPERIMENT
+        """The experiment as resolved, at hand on this machine with the files that it names beside it."""
+        return self.inputs.here() / EXPERIMENT
+
+    @property
+    def source(self) -> str:
+        """The experiment's own place, for messages."""
+        return str(self.store.at(EXPERIMENT))
 
     def manifest(self) -> dict[str, Any]:
         """Read the manifest.
@@ -68,36 +87,77 @@ class RunFolder:
         InputError
             When it is no JSON object.
         """
-        path = self.path / MANIFEST
+        place = str(self.store.at(MANIFEST))
         try:
-            found = json.loads(path.read_text(encoding="utf-8"))
+            found = json.loads(self.store.read(MANIFEST).decode())
         except (OSError, ValueError) as error:
-            raise InputError(str(path), "a run's manifest", f"a file that cannot be read ({error})") from None
+            if isinstance(error, StoreError):
+                raise
+            raise InputError(place, "a run's manifest", f"a file that cannot be read ({error})") from None
         if not isinstance(found, dict):
-            raise InputError(str(path), "a run's manifest, a JSON object", type(found).__name__)
+            raise InputError(place, "a run's manifest, a JSON object", type(found).__name__)
         return found
 
     def update(self, **changes: Any) -> None:  # noqa: ANN401 - plain JSON values
         """Change keys of the manifest, atomically."""
-        _write_manifest(self.path, {**self.manifest(), **changes})
+        self.store.write(MANIFEST, _as_json({**self.manifest(), **changes}))
+
+
+def on_disk(store: Store) -> Path:
+    """Give a store's folder on a local disk, for what is only asked where it is there."""
+    if store.local is None:
+        raise RuntimeError(f"{store} is not on a local disk")
+    return store.local
 
 
 def open_run(path: str) -> RunFolder:
-    """Give the run in this folder, or of this name under ``runs``.
+    """Give the run in this folder, at this place, or of this name under ``runs``.
 
     Raises
     ------
     InputError
         When it is no run's folder.
     """
+    if is_uri(path):
+        return _open_place(path)
     for folder in (Path(path), DEFAULT_RUNS / path):
         if (folder / MANIFEST).is_file():
-            return RunFolder(folder.resolve())
+            return _run_in(folder.resolve())
     if not Path(path).exists():
         known = [entry.parent.name for entry in sorted(DEFAULT_RUNS.glob(f"*/{MANIFEST}"))]
         remedy = near(Path(path).name, known) if known else "see 'atoll run --help'"
         raise InputError(path, "a run's folder", "nothing by that name", remedy)
     raise InputError(path, "a run's folder", f"one without {MANIFEST}", "give the folder that 'atoll run' printed")
+
+
+def _open_place(uri: str) -> RunFolder:
+    """Give the run at a URI."""
+    store = Store.open(uri)
+    if store.exists(MANIFEST):
+        return _run_in(store)
+    store.check()
+    raise InputError(uri, "a run's folder", f"one without {MANIFEST}", "give the place that 'atoll run' printed")
+
+
+def _run_in(place: Anywhere, inputs: Path | None = None) -> RunFolder:
+    store = Store.open(place)
+    return RunFolder(store, Inputs(store, inputs or store.local))
+
+
+def choose_name(runs: Runs, name: str, *, explicit: bool) -> str:
+    """Give the name of a new run.
+
+    A name that was asked for must be free; a name by default gets a number when it is taken.
+
+    Raises
+    ------
+    InputError
+        When a name that was asked for is taken, or is too long.
+    """
+    if isinstance(runs, Path):
+        return choose_path(runs, name, explicit=explicit).name
+    folders = runs.folders()
+    return _free(name, folders.__contains__, lambda chosen: str(runs.at(chosen)), explicit=explicit)
 
 
 def choose_path(runs_dir: Path, name: str, *, explicit: bool) -> Path:
@@ -110,26 +170,33 @@ def choose_path(runs_dir: Path, name: str, *, explicit: bool) -> Path:
     InputError
         When a name that was asked for is taken, or is too long.
     """
+    # Links that lead nowhere count as taken, too: a folder cannot be moved to their place.
+    taken = lambda chosen: os.path.lexists(runs_dir / chosen)  # noqa: E731
+    return runs_dir / _free(name, taken, lambda chosen: str(runs_dir / chosen), explicit=explicit)
+
+
+def _free(name: str, taken: Callable[[str], bool], place: Callable[[str], str], *, explicit: bool) -> str:
     if explicit and len(name) > LONGEST_NAME:
         raise InputError("--name", f"at most {LONGEST_NAME} characters", str(len(name)), "choose a shorter name")
-    path, number = runs_dir / name, 1
-    # Links that lead nowhere count as taken, too: a folder cannot be moved to their place.
-    while os.path.lexists(path):
+    chosen, number = name, 1
+    while taken(chosen):
         if explicit:
-            raise InputError(f"--name {name}", "a name that is free", f"{path}, which exists", "choose another name")
+            got = f"{place(chosen)}, which exists"
+            raise InputError(f"--name {name}", "a name that is free", got, "choose another name")
         number += 1
         mark = f"-{number}"
-        path = runs_dir / f"{name[: LONGEST_NAME - len(mark)]}{mark}"
-    return path
+        chosen = f"{name[: LONGEST_NAME - len(mark)]}{mark}"
+    return chosen
 
 
 def create(
-    runs_dir: Path, name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any], *, explicit: bool
+    runs_dir: Runs, name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any], *, explicit: bool
 ) -> RunFolder:
     """Make a run's folder, with the experiment and every file that it names.
 
-    It is built beside its place and moved there when it is complete. The move claims the name: of runs that start
-    together one has it, and the others get the next numbers.
+    On a disk it is built beside its place and moved there when it is complete. The move claims the name: of runs that
+    start together one has it, and the others get the next numbers. In another store, where nothing can be moved, the
+    name is claimed first (:mod:`orchestrator.claims`), and the manifest is written last.
 
     Parameters
     ----------
@@ -149,6 +216,8 @@ def create(
     InputError
         When the folder cannot be made, or the name is taken.
     """
+    if isinstance(runs_dir, Store):
+        return _created_far(runs_dir, name, loaded, started, facts, explicit=explicit)
     is_new = not runs_dir.exists()
     try:
         runs_dir.mkdir(parents=True, exist_ok=True)
@@ -156,7 +225,7 @@ def create(
             while True:
                 path = choose_path(runs_dir, name, explicit=explicit)
                 if _made(path, loaded, started, facts):
-                    return RunFolder(path.resolve())
+                    return _run_in(path.resolve())
         except BaseException:
             if is_new:
                 with contextlib.suppress(OSError):  # another run may stand in it by now
@@ -173,9 +242,7 @@ def _made(path: Path, loaded: Loaded, started: datetime, facts: Mapping[str, Any
     draft = path.parent / f".{path.name}.{secrets.token_hex(4)}.partial"
     draft.mkdir()
     try:
-        data = {**_with_files_kept(loaded, draft), "name": path.name}
-        (draft / EXPERIMENT).write_text(_as_yaml(data), encoding="utf-8")
-        _write_manifest(draft, _first_manifest(path.name, loaded, started, facts))
+        _fill(draft, path.name, loaded, started, facts)
         draft.rename(path)
     except BaseException as error:
         shutil.rmtree(draft, ignore_errors=True)
@@ -185,61 +252,36 @@ def _made(path: Path, loaded: Loaded, started: datetime, facts: Mapping[str, Any
     return True
 
 
+def _created_far(
+    runs: Store, name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any], *, explicit: bool
+) -> RunFolder:
+    """Make a run's folder in a store that is no disk; it is filled on this machine first."""
+    runs.check()
+    with claimed(runs, lambda: choose_name(runs, name, explicit=explicit), MANIFEST) as chosen:
+        store, draft = runs.at(chosen), folder_for_now()
+        _fill(draft, chosen, loaded, started, facts)
+        files = sorted(path for path in draft.rglob("*") if path.is_file())
+        try:
+            for path in sorted(files, key=lambda path: path.name == MANIFEST):
+                store.write(path.relative_to(draft).as_posix(), path.read_bytes())
+        except BaseException:
+            with contextlib.suppress(StoreError):
+                store.remove_tree()
+            raise
+    return _run_in(store, draft)
+
+
+def _fill(draft: Path, name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any]) -> None:
+    """Write what a run's folder holds at first."""
+    data = {**with_files_kept(loaded, draft), "name": name}
+    (draft / EXPERIMENT).write_text(as_yaml(data), encoding="utf-8")
+    Store.open(draft).write(MANIFEST, _as_json(_first_manifest(name, loaded, started, facts)))
+
+
 def remove(folder: RunFolder) -> None:
-    """Remove a run that never began."""
-    shutil.rmtree(folder.path, ignore_errors=True)
-
-
-def _with_files_kept(loaded: Loaded, draft: Path) -> dict[str, Any]:
-    """Copy what the islands name into the folder; give the experiment's data with the copies in their place."""
-    taken: dict[str, bytes] = {}
-
-    def keep(folder: str, name: str, content: bytes) -> str:
-        stem, _, suffix = name.partition(".")
-        place, number = f"{folder}/{name}", 2
-        while taken.get(place, content) != content:
-            place, number = f"{folder}/{stem}-{number}.{suffix}", number + 1
-        if place not in taken:
-            taken[place] = content
-            (draft / folder).mkdir(parents=True, exist_ok=True)
-            (draft / place).write_bytes(content)
-        return place
-
-    islands = dict(loaded.experiment.islands)
-    for spec in {spec.group: spec for spec in make_plan(loaded).islands}.values():
-        kind = resolve_kind(spec.kind, spec.where("kind"))
-        genome, growth = kind.keep_files(spec, keep)
-        changes = {"genome": dict(genome), "growth": dict(growth)}
-        islands[spec.group] = islands[spec.group].model_copy(update=changes)
-    channels = [
-        _with_graph_kept(channel, loaded.base, keep, f"{loaded.source}: channels.{number}.topology")
-        for number, channel in enumerate(loaded.experiment.channels)
-    ]
-    experiment = loaded.experiment.model_copy(update={"islands": islands, "channels": channels})
-    return replace(loaded, experiment=experiment).data()
-
-
-def _with_graph_kept(channel: ChannelSettings, base: Path, keep: Keep, where: str) -> ChannelSettings:
-    """Keep the file that a channel's topology reads."""
-    if not channel.parameters:
-        return channel
-    parameters = kept(channel.topology_name, channel.parameters, base, keep, where)
-    return channel.model_copy(update={"topology": {"name": channel.topology_name, **parameters}})
-
-
-def _as_yaml(data: Mapping[str, Any]) -> str:
-    from ruamel.yaml import YAML
-
-    writer = YAML(typ="safe", pure=True)
-    writer.default_flow_style = False
-    writer.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
-    writer.width = 10_000
-    stream = io.StringIO()
-    writer.dump(dict(data), stream)
-    text = stream.getvalue()
-    if parse_yaml(text, EXPERIMENT).data != data:
-        raise AssertionError(f"the resolved experiment does not read back as it was written:\n{text}")
-    return text
+    """Remove a run that never began, as far as that can be done."""
+    with contextlib.suppress(StoreError):
+        folder.store.remove_tree()
 
 
 def _first_manifest(name: str, loaded: Loaded, started: datetime, facts: Mapping[str, Any]) -> dict[str, Any]:
@@ -268,5 +310,5 @@ def versions(packages: Sequence[str]) -> dict[str, str]:
     return found
 
 
-def _write_manifest(folder: Path, manifest: Mapping[str, Any]) -> None:
-    write_whole(folder / MANIFEST, (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode())
+def _as_json(manifest: Mapping[str, Any]) -> bytes:
+    return (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode()

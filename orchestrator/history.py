@@ -8,7 +8,6 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Any, Final, NamedTuple, final
 
 from genome.errors import InputError
@@ -16,6 +15,7 @@ from islands.arrivals import Sizes, recorded_sizes
 from islands.individual import Scores
 from islands.migration.channel import ChannelKind
 from islands.spec import IslandSpec
+from islands.store import Anywhere
 from orchestrator.query import ask
 
 CAME: Final = "select epoch, channel, source, id, fitness from migrations where kind = '{kind}' and target = '{island}'"
@@ -92,7 +92,7 @@ class History:
         Whether packets may have been taken in later than at the next epoch's start, as with the schedule ``async``.
     """
 
-    def __init__(self, log: Path, islands: Sequence[IslandSpec], numbers: Mapping[str, int], late: bool) -> None:
+    def __init__(self, log: Anywhere, islands: Sequence[IslandSpec], numbers: Mapping[str, int], late: bool) -> None:
         self._log: Final = log
         self._places: Final = {spec.name: spec.number for spec in islands}
         self._channels: Final = numbers

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from genome.errors import InputError
 from islands.host import HostPlan
 from islands.migration.channel import Edge
 from islands.migration.routes import Redrawn
 from islands.spec import IslandSpec
+from islands.store import Anywhere, Store
 from orchestrator.loading import Loaded
 from orchestrator.wiring import wire
 
@@ -41,8 +41,9 @@ def make_plan(loaded: Loaded) -> Plan:
     return Plan(islands, edges, tuple(one.redrawn for one in wired if one.redrawn is not None))
 
 
-def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Path) -> tuple[HostPlan, ...]:
+def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Anywhere) -> tuple[HostPlan, ...]:
     """Share the islands out among hosts, in blocks of neighbours as equal as can be."""
+    place = Store.open(folder).place
     count = len(plan.islands)
     placement = tuple(island * hosts // count for island in range(count))
     plans = []
@@ -55,7 +56,7 @@ def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Path) -
                 hosts=hosts,
                 run=run,
                 seed=loaded.experiment.seed,
-                folder=str(folder),
+                folder=place,
                 islands=here,
                 edges=edges,
                 placement=placement,

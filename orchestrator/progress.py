@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, Final, Protocol, TextIO, final
 
+from islands.store import Store
 from islands.tally import IslandSummary
 from orchestrator.experiment import Experiment
 from orchestrator.plan import Plan
@@ -22,7 +22,7 @@ MOST_ROWS: Final = 24
 class Progress(Protocol):
     """Is told how a run goes."""
 
-    def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
+    def begin(self, plan: Plan, experiment: Experiment, folder: Store) -> None:
         """Start: the run begins."""
         ...
 
@@ -98,7 +98,7 @@ class PlainLines:
         self._migrants = 0
         self._barren = Barren()
 
-    def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
+    def begin(self, plan: Plan, experiment: Experiment, folder: Store) -> None:
         """Say what is about to happen."""
         self._epochs = experiment.length
         self._pace = Pace(experiment.length, experiment.epoch)
@@ -141,7 +141,7 @@ class LiveTable:
         self._title = ""
         self._barren = Barren()
 
-    def begin(self, plan: Plan, experiment: Experiment, folder: Path) -> None:
+    def begin(self, plan: Plan, experiment: Experiment, folder: Store) -> None:
         """Draw the empty table."""
         from rich.console import Console
         from rich.live import Live

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from genome.errors import InputError
 from genome.mishaps import one_line
 from islands.schemas import TABLES, schema
+from islands.store import Anywhere, Store
 
 if TYPE_CHECKING:
     import duckdb
@@ -24,11 +25,12 @@ READING: Final = ("SELECT", "MULTI")
 """DuckDB's types of the statements that only read; MULTI is that of ``pivot``."""
 
 
-def connect(log: Path) -> duckdb.DuckDBPyConnection:
+def connect(log: Anywhere) -> duckdb.DuckDBPyConnection:
     """Open an in-memory database with one view for each table of the log, and nothing else to be had.
 
     A view reads the table's whole files, those that are there now, so a running or killed run can be read; a table
-    without a file yet is an empty view with its columns. Other files are out of reach, and settings are locked.
+    without a file yet is an empty view with its columns. Other files are out of reach, and settings are locked. A log
+    that is on no local disk is read through Arrow, as a query needs it: DuckDB itself reaches no store.
 
     Raises
     ------
@@ -37,25 +39,36 @@ def connect(log: Path) -> duckdb.DuckDBPyConnection:
     """
     import duckdb
 
+    store = Store.open(log)
     connection = duckdb.connect()
     try:
         for table in TABLES:
-            files = sorted(path for path in (log / table).glob("*.parquet") if path.is_file())
-            if files:
+            names = [name for name in store.names(table) if name.endswith(".parquet")]
+            if names and store.local is not None:
                 # The files by name, not by a pattern: a folder's name may hold what a pattern takes for its own.
-                listed = ", ".join(_quoted(str(path)) for path in files)
+                listed = ", ".join(_quoted(str(store.local / table / name)) for name in names)
                 connection.execute(f"create view {table} as select * from read_parquet([{listed}])")  # noqa: S608
             else:
-                connection.register(f"no_{table}", schema(table).empty_table())
-                connection.execute(f"create view {table} as select * from no_{table}")  # noqa: S608
-        folders = ", ".join(_quoted(str(log / table)) for table in TABLES)
-        connection.execute(f"set allowed_directories = [{folders}]")
+                rows = _far(store, table, names) if names else schema(table).empty_table()
+                connection.register(f"arrow_{table}", rows)
+                connection.execute(f"create view {table} as select * from arrow_{table}")  # noqa: S608
+        if store.local is not None:
+            folders = ", ".join(_quoted(str(store.local / table)) for table in TABLES)
+            connection.execute(f"set allowed_directories = [{folders}]")
         connection.execute("set enable_external_access = false")
         connection.execute("set lock_configuration = true")
     except (duckdb.Error, UnicodeError) as error:
         connection.close()
-        raise InputError(str(log), "a run's log of Parquet files", _told(error)) from None
+        raise InputError(str(store), "a run's log of Parquet files", _told(error)) from None
     return connection
+
+
+def _far(store: Store, table: str, names: Sequence[str]) -> Any:  # noqa: ANN401 - Arrow has no types
+    """Give a table's files in another store as one dataset, of which a query reads what it needs."""
+    import pyarrow.dataset as ds
+
+    files, root = store.at(table).arrow()
+    return ds.dataset([f"{root}/{name}" for name in names], schema(table), "parquet", filesystem=files)
 
 
 def _quoted(text: str) -> str:
@@ -71,7 +84,7 @@ class Answer:
     rows: list[tuple[Any, ...]]
 
 
-def ask(log: Path, sql: str) -> Answer:
+def ask(log: Anywhere, sql: str) -> Answer:
     """Put a query to a log.
 
     Raises
@@ -91,7 +104,7 @@ def ask(log: Path, sql: str) -> Answer:
             raise _not_understood(error) from None
 
 
-def write_parquet(log: Path, sql: str, path: Path) -> None:
+def write_parquet(log: Anywhere, sql: str, path: Path) -> None:
     """Write a query's answer to a Parquet file.
 
     Raises

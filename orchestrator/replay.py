@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
 from genome.errors import InputError
-from orchestrator.folder import LONGEST_NAME, RunFolder
+from orchestrator.folder import LONGEST_NAME, RunFolder, Runs
 from orchestrator.loading import load_experiment
 from orchestrator.progress import Progress
 from orchestrator.query import ask
@@ -18,7 +17,7 @@ MARK = "-replay"
 
 
 def replay(
-    folder: RunFolder, runs_dir: Path, name: str | None, overrides: Sequence[str], progress: Progress
+    folder: RunFolder, runs_dir: Runs, name: str | None, overrides: Sequence[str], progress: Progress
 ) -> Outcome:
     """Run a run again, up to the epoch at which its log ends.
 
@@ -40,10 +39,10 @@ def replay(
     """
     status = folder.manifest().get("status")
     if status not in OVER:
-        raise InputError(str(folder.path), "a run that finished or was stopped", f"one that is {status}")
+        raise InputError(str(folder.store), "a run that finished or was stopped", f"one that is {status}")
     ((through,),) = ask(folder.log, "select max(epoch) from generations").rows
     if through is None:
-        raise InputError(str(folder.path), "a run with an epoch in its log", "one that was stopped before")
+        raise InputError(str(folder.store), "a run with an epoch in its log", "one that was stopped before")
     loaded = load_experiment(folder.experiment, (*overrides, f"epochs={int(through)}"))
     chosen = name or f"{folder.name[: LONGEST_NAME - len(MARK)]}{MARK}"
     renamed = loaded.experiment.model_copy(update={"name": chosen})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections import deque
@@ -19,10 +20,11 @@ from islands.kinds.trade import check_biology
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
 from islands.migration.channel import Channel
+from islands.store import Store, StoreError
 from islands.tally import IslandSummary
 from orchestrator import archipelago as machine
 from orchestrator.backends.protocol import Backend, Deadlines, RunFailedError
-from orchestrator.folder import RunFolder, choose_path, create, remove
+from orchestrator.folder import MANIFEST, RunFolder, Runs, choose_name, create, on_disk, remove
 from orchestrator.loading import Loaded, load_experiment
 from orchestrator.plan import Plan, host_plans, make_plan
 from orchestrator.progress import Progress
@@ -40,7 +42,7 @@ class Outcome:
 
     Attributes
     ----------
-    folder
+    store
         The run's folder; it does not exist when the run failed before its first populations were scored.
     status, reason
         How it ended, and why.
@@ -55,7 +57,7 @@ class Outcome:
         stepping islands.
     """
 
-    folder: Path
+    store: Store
     status: machine.Status
     reason: str
     islands: int
@@ -66,6 +68,11 @@ class Outcome:
     startup_s: float
     stepped_s: float
     busy: float
+
+    @property
+    def folder(self) -> Path:
+        """The run's folder on the local disk where it stands."""
+        return on_disk(self.store)
 
 
 def seconds_of(plan: Plan) -> dict[str, float]:
@@ -147,7 +154,7 @@ def make_backend(loaded: Loaded, address: str | None) -> Backend:
 def run_experiment(
     loaded: Loaded,
     backend: Backend,
-    runs_dir: Path,
+    runs_dir: Runs,
     name: str | None,
     progress: Progress,
     replay: RunFolder | None = None,
@@ -179,7 +186,7 @@ def run_experiment(
     started, clock = datetime.now(UTC), time.perf_counter()
     plan, seconds = prepare(loaded)
     explicit, name = name is not None, name or loaded.experiment.name
-    choose_path(runs_dir, name, explicit=explicit)
+    choose_name(runs_dir, name, explicit=explicit)
     with Signals(backend.interrupt) as signals:
         try:
             hosts = _opened(backend, signals)
@@ -191,7 +198,10 @@ def run_experiment(
                 return drive.to_the_end(signals.stop)
             except BaseException as error:
                 signals.close()
-                _conclude_badly(folder, drive, error)
+                with contextlib.suppress(StoreError):  # what the run died of may be its store
+                    _conclude_badly(folder, drive, error)
+                if isinstance(error, StoreError):
+                    raise RunFailedError(str(error)) from None
                 raise
         finally:
             signals.close()
@@ -216,7 +226,7 @@ def _opened(backend: Backend, signals: Signals) -> int:
 
 def _conclude_badly(folder: RunFolder, drive: _Drive | None, error: BaseException) -> None:
     """Close the manifest of a run that was broken off hard, with what the driver knows."""
-    if not folder.path.exists() or folder.manifest().get("status") != "running":
+    if not folder.store.exists(MANIFEST) or folder.manifest().get("status") != "running":
         return
     if isinstance(error, KeyboardInterrupt):
         status, reason = "stopped", "broken off by a second Ctrl-C: what the hosts had not written yet is lost"
@@ -241,7 +251,7 @@ class _Drive:
     ) -> None:
         # The run goes by its own folder from here on, as a replay will.
         loaded = load_experiment(folder.experiment)
-        self.loaded = replace(loaded, source=str(folder.experiment))
+        self.loaded = replace(loaded, source=folder.source)
         self.folder, self.backend, self.hosts, self.progress = folder, backend, hosts, progress
         self.plan = make_plan(self.loaded)
         self.deadlines = _deadlines(self.loaded, self.plan, hosts, seconds)
@@ -257,7 +267,7 @@ class _Drive:
         experiment = self.loaded.experiment
         self.backend.begin(self._host_plans(), self.deadlines)
         self._tell("start", {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed})
-        self.progress.begin(self.plan, experiment, self.folder.path)
+        self.progress.begin(self.plan, experiment, self.folder.store)
         state = machine.Archipelago(self.hosts, experiment.length, experiment.schedule)
         events: deque[machine.Event] = deque([machine.Begun()])
         told = False
@@ -287,11 +297,11 @@ class _Drive:
         changes: dict[str, Any] = {
             "epochs": experiment.length,
             "schedule": experiment.schedule,
-            "replay": "" if self.replay is None else str(self.replay.log),
+            "replay": "" if self.replay is None else self.replay.log.place,
             # Longer than the driver waits for a host that hangs: it knows whose fault it is.
             "patience": PATIENCE * self.deadlines.epoch,
         }
-        plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.path)
+        plans = host_plans(self.loaded, self.plan, self.hosts, self.folder.name, self.folder.store)
         return tuple(replace(plan, **changes) for plan in plans)
 
     def facts(self) -> dict[str, Any]:
@@ -313,7 +323,7 @@ class _Drive:
 
     def _conclude(self, end: machine.Conclude) -> Outcome:
         facts, islands = self.facts(), len(self.plan.islands)
-        outcome = Outcome(folder=self.folder.path, status=end.status, reason=end.reason, islands=islands, **facts)
+        outcome = Outcome(store=self.folder.store, status=end.status, reason=end.reason, islands=islands, **facts)
         if end.status == "failed" and not end.settled:
             remove(self.folder)
             raise RunFailedError(end.reason)

@@ -90,19 +90,19 @@ class DiskStore(Store):
         except OSError as error:
             raise _unread(path, error) from None
 
-    def names(self, folder: str = "") -> list[str]:
+    def names(self, folder: str = "", *, hidden: bool = False) -> list[str]:
         """Give the names of the files right below a folder."""
-        return sorted(entry.name for entry in self._entries(folder) if entry.is_file())
+        return sorted(entry.name for entry in self._entries(folder, hidden=hidden) if entry.is_file())
 
     def folders(self, folder: str = "") -> list[str]:
         """Give the names of the folders right below a folder."""
         return sorted(entry.name for entry in self._entries(folder) if entry.is_dir())
 
-    def _entries(self, folder: str) -> Iterator[os.DirEntry[str]]:
+    def _entries(self, folder: str, *, hidden: bool = False) -> Iterator[os.DirEntry[str]]:
         path = self._path / folder
         try:
             with os.scandir(path) as entries:
-                yield from (entry for entry in entries if not entry.name.startswith("."))
+                yield from (entry for entry in entries if hidden or not entry.name.startswith("."))
         except OSError as error:
             if error.errno not in NONE:
                 raise _unread(path, error) from None

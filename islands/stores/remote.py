@@ -120,9 +120,9 @@ class RemoteStore(Store):
             raise self._nothing(name)
         return int(info.size)
 
-    def names(self, folder: str = "") -> list[str]:
+    def names(self, folder: str = "", *, hidden: bool = False) -> list[str]:
         """Give the names of the files right below a folder."""
-        return sorted(info.base_name for info in self._entries(folder) if info.is_file)
+        return sorted(info.base_name for info in self._entries(folder, hidden=hidden) if info.is_file)
 
     def folders(self, folder: str = "") -> list[str]:
         """Give the names of the folders right below a folder."""
@@ -159,12 +159,12 @@ class RemoteStore(Store):
         with self._asking(name, "a store that can be reached"):
             return self._files.get_file_info(self._path(name))
 
-    def _entries(self, folder: str) -> list[Any]:
+    def _entries(self, folder: str, *, hidden: bool = False) -> list[Any]:
         from pyarrow.fs import FileSelector
 
         with self._asking(folder, "a folder that can be read"):
             found = self._files.get_file_info(FileSelector(self._path(folder), allow_not_found=True))
-        return [info for info in found if not info.base_name.startswith(".")]
+        return [info for info in found if hidden or not info.base_name.startswith(".")]
 
     def _nothing(self, name: str) -> FileNotFoundError:
         return FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(self.at(name)))

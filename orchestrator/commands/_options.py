@@ -5,11 +5,15 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from genome.errors import InputError
+
+if TYPE_CHECKING:
+    from orchestrator.folder import Runs
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -43,3 +47,20 @@ def check_place(runs_dir: str, name: str | None) -> None:
         raise InputError("--runs-dir", "a folder", f"'{runs_dir}'", "'.' is the current one")
     if name is not None and not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9_.-]*", name):
         raise InputError("--name", "letters, digits, '-', '_' and '.'", f"'{name}'")
+
+
+def runs_at(place: str) -> Runs:
+    """Open the place where run folders stand: a path of this machine stays as it was written.
+
+    Raises
+    ------
+    InputError
+        For a URI that is none, or that cannot be opened.
+    """
+    from islands.store import Store
+    from islands.stores.places import is_uri
+
+    if not is_uri(place):
+        return Path(place)
+    store = Store.open(place)
+    return store if store.local is None else store.local

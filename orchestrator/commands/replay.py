@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from genome.errors import InputError
-from orchestrator.commands._options import check_place, emit, example, json_option
+from orchestrator.commands._options import check_place, emit, example, json_option, runs_at
 from orchestrator.unbroken import Unbroken
+
+if TYPE_CHECKING:
+    from orchestrator.folder import Runs
 
 FREE = ("hosts", "backend", "deadlines", "log")
 """Settings that a replay may change, since nothing that happens in a run hangs on them."""
@@ -46,14 +49,14 @@ def command(
     if identity is None:
         check_place(runs_dir, name)
         with contextlib.redirect_stdout(Unbroken(sys.stdout)), contextlib.redirect_stderr(Unbroken(sys.stderr)):
-            _replay_run(run, Path(runs_dir), name, overrides, as_json=as_json)
+            _replay_run(run, runs_at(runs_dir), name, overrides, as_json=as_json)
     elif name is not None or overrides:
         raise InputError("--id", "no --name and no --set beside it", "both", "they are for the replay of a whole run")
     else:
         _replay_individual(run, identity, as_json=as_json)
 
 
-def _replay_run(run: str, runs_dir: Path, name: str | None, overrides: tuple[str, ...], *, as_json: bool) -> None:
+def _replay_run(run: str, runs_dir: Runs, name: str | None, overrides: tuple[str, ...], *, as_json: bool) -> None:
     from orchestrator.backends.protocol import RunFailedError
     from orchestrator.cli import Complaint
     from orchestrator.digest import digest
@@ -76,11 +79,11 @@ def _replay_run(run: str, runs_dir: Path, name: str | None, overrides: tuple[str
     if outcome.status == "stopped":
         click.echo("atoll: the replay was stopped; nothing is compared", err=True)
         raise click.exceptions.Exit(130)
-    first, second = digest(folder.log)[0], digest(outcome.folder / "log")[0]
+    first, second = digest(folder.log)[0], digest(outcome.store.at("log"))[0]
     if as_json:
-        emit({"run": str(outcome.folder), "digest": second, "same": first == second})
+        emit({"run": str(outcome.store), "digest": second, "same": first == second})
     else:
-        click.echo(f"{second} {outcome.folder.name} ({'the same' if first == second else 'not the same'})")
+        click.echo(f"{second} {outcome.store.name} ({'the same' if first == second else 'not the same'})")
     if outcome.status == "failed":
         raise Complaint(outcome.reason, 1)
     if first != second:

@@ -6,11 +6,16 @@ import contextlib
 import shutil
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from orchestrator.commands._options import check_place, emit, example, json_option
+from orchestrator.commands._options import check_place, emit, example, json_option, runs_at
 from orchestrator.unbroken import Unbroken
+
+if TYPE_CHECKING:
+    from islands.store import Store
+    from orchestrator.folder import Runs
 
 
 @click.command(
@@ -22,7 +27,7 @@ from orchestrator.unbroken import Unbroken
 )
 @click.argument("experiment", type=click.Path(path_type=Path))
 @click.option("--runs-dir", type=click.Path(), default="runs", show_default=True,
-              help="Where run folders stand.")  # fmt: skip
+              help="Where run folders stand: a folder, or a place such as s3://bucket/runs.")  # fmt: skip
 @click.option("--name", help="The run's name; by default the experiment's, with a number if it is taken.")
 @click.option("--seed", type=click.IntRange(min=0, max=2**63 - 1), help="In place of the experiment's seed.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY.PATH=VALUE", help="In place of any of its settings.")
@@ -43,12 +48,12 @@ def command(
         overrides = (*overrides, f"seed={seed}")
     # Progress that nobody reads, as after `atoll run ... | head -1` or in a terminal that was closed, stops no run.
     with contextlib.redirect_stdout(Unbroken(sys.stdout)), contextlib.redirect_stderr(Unbroken(sys.stderr)):
-        _run(experiment, Path(runs_dir), name, overrides, address, as_json=as_json)
+        _run(experiment, runs_at(runs_dir), name, overrides, address, as_json=as_json)
 
 
 def _run(
     experiment: Path,
-    runs_dir: Path,
+    runs_dir: Runs,
     name: str | None,
     overrides: tuple[str, ...],
     address: str | None,
@@ -75,8 +80,8 @@ def _run(
     if as_json:
         emit(
             {
-                "run": str(outcome.folder),
-                "name": outcome.folder.name,
+                "run": str(outcome.store),
+                "name": outcome.store.name,
                 "status": outcome.status,
                 "islands": outcome.islands,
                 "generations": outcome.generations,
@@ -89,7 +94,7 @@ def _run(
             }
         )
     else:
-        _tell(outcome.folder, outcome.status, outcome.best)
+        _tell(outcome.store, outcome.status, outcome.best)
         click.echo(f"{outcome.evaluations} evaluations in {outcome.wall_s:.1f} s")
     if outcome.status == "failed":
         raise Complaint(outcome.reason, 1)
@@ -97,14 +102,13 @@ def _run(
         raise click.exceptions.Exit(130)
 
 
-def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
+def _tell(folder: Store, status: str, best: dict[str, object] | None) -> None:
     """Say where the run's forms and log are, and what to do with them."""
-    here = Path.cwd()
-    shown = folder.relative_to(here) if folder.is_relative_to(here) else folder
+    shown = _shown(folder)
     click.echo(f"\n{status}: {shown}")
     if best is not None:
         click.echo(f"best: {best['id']} of island {best['island']}, fitness {best['fitness']:.6g}")
-    if (folder / "forms").is_dir():
+    if folder.names("forms"):
         click.echo(f"forms: {shown}/forms")
     click.echo(f"log: {shown}/log (Parquet)")
     atoll = _called()
@@ -112,6 +116,16 @@ def _tell(folder: Path, status: str, best: dict[str, object] | None) -> None:
     sql = "select island, max(fitness) from individuals group by island"
     click.echo(f'      {atoll} query {shown} "{sql}"')
     click.echo(f"      {atoll} export {shown} --best 3 --format glb,png -o forms")
+
+
+def _shown(folder: Store) -> str:
+    """Give the run's folder as a shell takes it: from here, where it is below."""
+    import shlex
+
+    here, path = Path.cwd(), folder.local
+    if path is None:
+        return shlex.quote(str(folder))
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
 
 
 def _called() -> str:

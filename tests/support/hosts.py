@@ -108,7 +108,7 @@ def run_on_threads(
     weather = Storm(made_hosts, storm) if storm is not None else None
     made_hosts.extend(Host(plan, post=weather.post if weather else directly) for plan in plans)
     try:
-        return made.log, _driven(made_hosts, plans, experiment, meanwhile)
+        return made.path / "log", _driven(made_hosts, plans, experiment, meanwhile)
     finally:
         if weather is not None:
             weather.close()
