@@ -16,7 +16,7 @@ from islands.individual import Individual, Scores
 from islands.kinds.protocol import Biology
 from islands.migration.channel import Migrant
 from islands.state import Deme, State
-from islands.steered import UNSTEERED, Steered
+from islands.steered import Steered
 from islands.tally import Champion
 
 MEMBER: Final = ("ids", "genotypes", "fitness", "scores", "errors", "since")
@@ -80,7 +80,7 @@ def read_state(text: str, deme: Deme[Any]) -> tuple[State[Any], Champion | None]
         stagnant=told["stagnant"],
         held=_holdings(told["held"]),
         scoring=told["scoring"],
-        steered=Steered.from_json(told["steered"]) if told["steered"] else UNSTEERED,
+        steered=Steered.from_json(told["steered"]),
     )
     champion = told["champion"]
     return state, None if champion is None else (champion[0], champion[1])

@@ -275,7 +275,7 @@ class Host:
             host = placement[packet.target]
             if host == here:
                 self._agenda.put(packet)
-            else:
+            elif host >= 0:
                 self._gathered.setdefault(host, []).append(packet)
 
     def _collect(self) -> None:

@@ -165,8 +165,8 @@ def decide(state: Archipelago, event: Event) -> Step:
             return _spawned(state)
         case HostFailed():
             return _failed(state, event)
-        case Rewound(epoch, hosts) if state.phase == "rewinding":
-            return _rewound(state, epoch, hosts)
+        case Rewound() if state.phase == "rewinding":
+            return _rewound(state, event)
         case HostReady(host) | HostFinished(host) | PartSaved(host) | EpochDone(host) | EpochAbandoned(host):
             return _answered(state, host, event)
         case StopAsked() if state.verdict[0] == "finished" and state.phase not in ("new", "saving", "finishing"):
@@ -201,11 +201,10 @@ def _spawned(state: Archipelago) -> Step:
     return state, tuple(Spawn(host) for host in everyone)
 
 
-def _rewound(state: Archipelago, epoch: int, hosts: int) -> Step:
-    """Begin anew from a checkpoint; a run that is to stop is over."""
-    limit = None if state.limit is not None and epoch >= state.limit and not state.lost else state.limit
+def _rewound(state: Archipelago, event: Rewound) -> Step:
+    """Begin anew from a checkpoint."""
     state = replace(
-        state, hosts=hosts, settled=epoch, lost=(), marks=(), stride=1, saving=None, limit=limit
+        state, hosts=event.hosts, settled=event.epoch, lost=(), marks=(), stride=1, saving=None, limit=event.limit
     )  # fmt: skip
     return _spawned(state)
 
@@ -436,7 +435,7 @@ def _through(state: Archipelago) -> int:
 
 
 def _finish(state: Archipelago) -> Step:
-    """Let every host write what it has: a checkpoint, the log, and forms; the latter only of a run that did not fail."""
+    """Let every host write what it has: a checkpoint, the log, and forms; no forms of a run that failed."""
     left = tuple(host for host in range(state.hosts) if host not in state.lost)
     if not left:
         return _end(state)

@@ -20,12 +20,16 @@ RUN: Final = "events/run-"
 def roll_back(store: Store, checkpoint: Checkpoint | None, *, keep_run_events: bool = False) -> tuple[str, ...]:
     """Bring a run's folder back to a checkpoint, or to the start for ``None``.
 
-    Checkpoints after it go first: the log files that they list will be no more. See :func:`cut_log`.
+    Checkpoints after it go first, drafts of others too: the log files that they list will be no more. Nobody may write
+    to the folder meanwhile. See :func:`cut_log`.
     """
     last = -1 if checkpoint is None else checkpoint.epoch
     for epoch in _all_epochs(store):
         if epoch > last:
             _unmake(store, epoch)
+    for name in store.names(FOLDER, hidden=True):
+        if name.startswith("."):
+            store.remove(f"{FOLDER}/{name}")
     return cut_log(store, checkpoint, keep_run_events=keep_run_events)
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from islands.interventions.intervention import Intervention
+
 Status = Literal["finished", "failed", "stopped"]
 
 # -- events ------------------------------------------------------------------------------------------------------
@@ -96,10 +98,14 @@ class RestructureAsked:
 
 @dataclass(frozen=True, slots=True)
 class Rewound:
-    """All is set for the hosts to begin anew from the checkpoint of an epoch, or from the start for -1."""
+    """All is set for the hosts to begin anew from the checkpoint of an epoch, or from the start for -1.
+
+    ``limit`` is the last epoch before islands or channels change again, if they are to.
+    """
 
     epoch: int
     hosts: int
+    limit: int | None = None
 
 
 Event: TypeAlias = (
@@ -180,6 +186,15 @@ class Seal:
 
 
 @dataclass(frozen=True, slots=True)
+class Steer:
+    """Tell a host of an intervention and the epoch in which it takes effect."""
+
+    host: int
+    epoch: int
+    intervention: Intervention
+
+
+@dataclass(frozen=True, slots=True)
 class Pause:
     """The run stands still, at this epoch."""
 
@@ -245,3 +260,6 @@ class Conclude:
 
 
 Instruction: TypeAlias = Spawn | Advance | Report | AskStop | Save | Seal | Pause | Rewind | Finish | Conclude
+
+Order: TypeAlias = Spawn | Advance | AskStop | Save | Steer | Finish
+"""What a host is told."""

@@ -32,11 +32,13 @@ def test_islands_that_are_ahead_have_been_sent_what_they_would_have_in_step(name
     # Ranks let islands be some epochs apart; those that are last settle the epochs.
     order = random.Random(seed)
     agenda = Agenda(numbers, Complete(routes), {number: order.randint(0, 4) for number in numbers})
-    transit, states, present, ahead = Transit(), {}, [], 0
+    transit, whole = Transit(), Transit()
+    states, present, ahead = {}, [], 0
     while agenda.floor < AT:
         number, epoch = agenda.next(6)
         taken = agenda.take(number)
         transit.take(epoch, taken)
+        whole.take(epoch, taken)
         present = [packet for packet in present if packet not in taken]
         island = there.islands[number]
         step = island.advance(states[number], there.generations, taken) if epoch else island.begin()
@@ -49,6 +51,7 @@ def test_islands_that_are_ahead_have_been_sent_what_they_would_have_in_step(name
         transit.forget(agenda.floor)
     assert ahead > AT
     found = transit.pending(AT, numbers, present)
+    assert whole.pending(AT, numbers, present) == found
     assert {number: list(packets) for number, packets in found.items()} == {
         number: sorted((p for p in expected if p.target == number), key=lambda p: (p.channel, p.source, p.epoch))
         for number in numbers

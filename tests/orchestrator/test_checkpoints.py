@@ -313,7 +313,9 @@ def test_a_run_that_is_rolled_back_and_goes_on_has_each_row_once(store) -> None:
     import pyarrow.dataset as ds
 
     made = history(store)
+    store.write("checkpoints/.e000007.json.1234.tmp", b"{")
     roll_back(store, made[1])
+    assert store.names("checkpoints", hidden=True) == ["e000001.json", "e000003.json"]
     assert newest(store, RUN, SEED) == (made[1], ())
     assert store.folders("checkpoints") == ["e000001", "e000003"]
     again = Driver(store, made[1])

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
 from hypothesis import strategies as st
 
+from evaluators.fitness import Goal
 from islands.holdings import NOTHING, Held, Holdings, Past
 from islands.individual import Individual
 from islands.migration.channel import Migrant, Packet
 from islands.state import State
+from islands.steered import Steered
 
 FLOATS = st.floats(allow_nan=False)
 IDS = st.integers(0, 2**62)
@@ -21,11 +24,25 @@ ODD_TEXT = st.text(st.characters(exclude_categories=()), max_size=20)
 
 MIGRANTS = st.builds(Migrant, IDS, ODD_TEXT, st.none() | FLOATS, SCORES, ODD_TEXT)
 TRAVELLERS = st.lists(MIGRANTS, max_size=3).map(tuple)
+GOALS = st.builds(
+    lambda value, weight: Goal(goal="target", value=value, weight=weight),
+    st.floats(-1e9, 1e9),
+    st.floats(1e-9, 1e9),
+)
 HELD = st.lists(st.builds(Held, NUMBERS, NUMBERS, TRAVELLERS), max_size=2).map(tuple)
 HOLDINGS = st.just(NOTHING) | st.builds(
     Holdings, HELD, HELD, HELD, st.lists(st.builds(Past, NUMBERS, TRAVELLERS), max_size=2).map(tuple)
 )
 CHAMPIONS = st.none() | st.tuples(FLOATS, IDS)
+STEERED = st.builds(
+    lambda goals, rates, promoted, locked: (
+        Steered(promoted=promoted, locked=locked).with_goals(goals).with_rates(rates)
+    ),
+    st.dictionaries(st.text(max_size=3), GOALS, max_size=2),
+    st.dictionaries(st.sampled_from(["crossover", "mutation"]), st.floats(0, 1), max_size=2),
+    st.lists(IDS, max_size=2).map(tuple),
+    st.lists(IDS, max_size=2).map(tuple),
+)
 
 
 def demes(genotypes: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
@@ -36,7 +53,7 @@ def demes(genotypes: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 def states(epoch: int, genotypes: st.SearchStrategy[Any]) -> st.SearchStrategy[State[Any]]:
     """States at the end of an epoch, empty demes among them."""
     return st.builds(
-        State, demes(genotypes), st.just(epoch), NUMBERS, IDS, st.none() | FLOATS, NUMBERS, HOLDINGS, ODD_TEXT
+        State, demes(genotypes), st.just(epoch), NUMBERS, IDS, st.none() | FLOATS, NUMBERS, HOLDINGS, ODD_TEXT, STEERED
     )
 
 
@@ -53,6 +70,8 @@ def bits_of(value: Any) -> Any:
         return value.hex() if math.isfinite(value) else str(value)
     if isinstance(value, (State, Individual)):
         return type(value).__name__, [bits_of(getattr(value, name)) for name in value.__slots__]
+    if isinstance(value, Steered):
+        return "Steered", json.dumps(value.to_json())
     if isinstance(value, tuple):
         return type(value).__name__, [bits_of(one) for one in value]
     return type(value).__name__, value
