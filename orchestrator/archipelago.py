@@ -105,6 +105,8 @@ class Archipelago:
         The last epoch before islands or channels change.
     paused, save_asked
         What somebody asked for.
+    trouble
+        Why the hosts begin anew.
     losses, reached
         How often hosts were lost since the run came further than ``reached``, the last epoch that was settled then.
     calls
@@ -133,6 +135,7 @@ class Archipelago:
     limit: int | None = None
     paused: bool = False
     save_asked: bool = False
+    trouble: str = ""
     losses: int = 0
     reached: int = -1
     calls: tuple[tuple[int, ...], ...] = ()
@@ -285,7 +288,7 @@ def _go_on(state: Archipelago) -> Step:
             return state, ()
         state = replace(state, phase="running")
     if state.phase == "rewinding":
-        return (state, ()) if _busy(state) else (state, (Rewind(state.lost, state.verdict[1]),))
+        return (state, ()) if _busy(state) else (state, (Rewind(state.lost, state.trouble),))
     if state.phase == "finishing":
         return (state, ()) if state.waiting else _end(state)
     if state.phase not in ("running", "saving"):
@@ -321,7 +324,7 @@ def _at_goal(state: Archipelago) -> Step:
         return state, ()
     if state.settled >= state.epochs:
         return _finish(state)
-    return replace(state, phase="rewinding"), (Rewind((), "islands and channels change"),)
+    return _go_on(replace(state, phase="rewinding", trouble="islands or channels change"))
 
 
 def _granted(state: Archipelago) -> Step:
@@ -385,11 +388,9 @@ def _failed(state: Archipelago, event: HostFailed) -> Step:
     if state.losses >= MOST_LOSSES:
         again = f"{event.reason}; it is the {state.losses + 1}th loss in a row without an epoch in between"
         return _break_off(state, again)
-    state = replace(state, phase="rewinding", losses=state.losses + 1, saving=None)
+    state = replace(state, phase="rewinding", trouble=event.reason, losses=state.losses + 1, saving=None)
     following, instructions = _go_on(state)
-    if instructions:
-        return following, (Rewind(state.lost, event.reason),)
-    return following, _stops(state)
+    return following, instructions or _stops(state)
 
 
 def _busy(state: Archipelago) -> tuple[int, ...]:
