@@ -354,8 +354,8 @@ def deadlines_of(loaded: Loaded, plan: Plan, hosts: int, seconds: dict[str, floa
     """Give how long hosts may take."""
     settings, generations = loaded.experiment.deadlines, loaded.experiment.epoch
     if settings.epoch is not None:
-        return Deadlines(settings.start, settings.epoch, settings.finish)
+        return Deadlines(settings.start, settings.epoch, settings.finish, settings.silence)
     share = -(-len(plan.islands) // hosts)
     heaviest = sorted((spec.population * seconds[spec.group] for spec in plan.islands), reverse=True)[:share]
     epoch = min(max(sum(heaviest) * generations, LEAST_EPOCH_S), MOST_EPOCH_S)
-    return Deadlines(settings.start, epoch, settings.finish)
+    return Deadlines(settings.start, epoch, settings.finish, settings.silence)
