@@ -19,7 +19,8 @@ from click.testing import CliRunner
 from experiments import Silent, bits, run, write
 from genome.errors import InputError
 from islands.schemas import TABLES
-from islands.store import Store
+from islands.store import Store, StoreError
+from orchestrator import query
 from orchestrator.backends.protocol import RunFailedError
 from orchestrator.cli import main
 from orchestrator.digest import digest
@@ -234,6 +235,17 @@ def test_a_store_that_goes_away_in_mid_run_fails_the_run_with_its_reason(tmp_pat
         result = CliRunner().invoke(main, ["run", str(path), "--runs-dir", "s3://bucket/runs", "--json"])
     assert (result.exit_code, result.stdout) == (1, ""), result.output
     assert "parquet: expected a file that can be written, got no connection (" in result.stderr.splitlines()[-1]
+
+
+def test_a_store_that_goes_away_in_mid_query_is_no_fault_of_the_query(tmp_path, monkeypatch) -> None:
+    with serving() as url, reaching(url):
+        log = run_far(tmp_path, "s3://bucket/runs").store.at("log")
+        connection = query.connect(log)
+    monkeypatch.setattr(query, "connect", lambda log: connection)
+    with pytest.raises(
+        StoreError, match=r"s3://bucket/runs/bits/log: expected a log that can be read, got no connection"
+    ):
+        ask(log, "select max(fitness) from individuals")
 
 
 @pytest.mark.ray
