@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
+import sys
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, final
 
 from islands.host import Advanced, Box, Finished, Host, HostPlan, Step
-from islands.mail import CAN_LISTEN, Letterbox, Line
+from islands.mail import CAN_LISTEN, Letterbox
 from islands.wire import opened, sealed
 
 CONTROL: Final = "control"
@@ -17,6 +19,16 @@ MAIL: Final = "mail"
 
 UNANSWERED: Final = 4
 """Letters to one host that may be on their way under ``async``, where nobody waits for them."""
+
+
+SWITCH_S: Final = 0.1
+"""Python's switch interval in hosts: how long the thread that computes is left alone by others that want the
+interpreter's lock. One of Ray's asks for it a hundred times a second, and each time that it gets it the other loses a
+moment to the change. Who waits for it in earnest, a wish to stop, can wait so long."""
+
+
+COLLECT: Final = (20_000, 20, 20)
+"""The collector's thresholds in hosts: demes and records are made by the thousand, and hardly ever in circles."""
 
 
 class Address(NamedTuple):
@@ -40,32 +52,33 @@ class HostActor:
 
     def __init__(self, plan: HostPlan, mail: str = "") -> None:
         self._plan = plan
-        self._host = Host(plan, post=self._post)
-        self._letterbox = (
-            Letterbox(self.deliver, mail and f"{mail}/{plan.host}") if CAN_LISTEN and plan.hosts > 1 else None
-        )
+        self._letterbox = Letterbox(mail and f"{mail}/{plan.host}") if CAN_LISTEN and plan.hosts > 1 else None
+        self._host = Host(plan, post=self._post, porch=self._letterbox)
         self._address = Address(_machine(), "" if self._letterbox is None else self._letterbox.address)
-        self._lines: dict[int, Line] = {}
         self._peers: dict[int, Any] = {}
         self._limited = plan.schedule == "async" and not plan.replay
         self._unanswered: dict[int, list[Any]] = {}
 
     def ready(self) -> Address:
         """Make the islands; see :meth:`Host.ready`. Gives the host's address."""
+        sys.setswitchinterval(SWITCH_S)
         self._host.ready()
+        # What stands now stands for good: the collector need not look at half a million objects of libraries again.
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(*COLLECT)
         return self._address
 
     def connect(self, peers: Mapping[int, tuple[Any, Address]]) -> None:
         """Take the other hosts' actors and addresses."""
-        near = 0
+        near: dict[int, str] = {}
         for number, (actor, address) in peers.items():
             if self._letterbox and address.letterbox and address.machine == self._address.machine:
-                self._lines[number] = Line(address.letterbox, self._plan.patience)
-                near += 1
+                near[number] = address.letterbox
             else:
                 self._peers[number] = actor.deliver
         if self._letterbox is not None:
-            self._letterbox.expect(near)
+            self._letterbox.connect(near, self._plan.patience)
 
     def advance(self, through: int, horizon: int, settled: int) -> Advanced:
         """Step islands; see :meth:`Host.advance`."""
@@ -89,8 +102,8 @@ class HostActor:
 
     def _post(self, host: int, packets: Box) -> bool:
         letter = sealed(packets)
-        if host in self._lines:
-            self._lines[host].send(letter)
+        if self._letterbox is not None and self._letterbox.reaches(host):
+            self._letterbox.send(host, letter)
             return True
         if not self._limited:
             self._peers[host].options(num_returns=0, concurrency_group=MAIL).remote(letter)

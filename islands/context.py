@@ -85,14 +85,23 @@ class Contexts(Generic[G]):
         self._among: tuple[Forms, Context[G]] = ((), self.alone)
         self._with: tuple[Context[G], Forms, Context[G]] = (self.alone, (), self.alone)
 
-    def of(self, holdings: Holdings, streams: EpochStreams) -> Context[G]:
-        """Give the context of an epoch in which the island holds this."""
+    def of(
+        self, holdings: Holdings, streams: EpochStreams, live: frozenset[tuple[int, int]] | None = None
+    ) -> Context[G]:
+        """Give the context of an epoch in which the island holds this.
+
+        Where channels come and go, ``live`` says which edges, by channel and source, lead to the island as it begins.
+        """
         if holdings == NOTHING:
             return self.alone
         context = self._with_parts(self.among(holdings), everything(holdings.components))
-        if not self._partners or context.symbiotic is None:
+        partners = self._partners
+        if live is not None:
+            here = {channel for channel, _ in live}
+            partners = tuple(channel for channel in partners if channel.number in here)
+        if not partners or context.symbiotic is None:
             return context
-        company = sides_of(self._partners, holdings, streams)
+        company = sides_of(partners, holdings, streams)
         return context if company is None else Context(context.biology, company, context.mishap)
 
     def among(self, holdings: Holdings) -> Context[G]:

@@ -51,6 +51,20 @@ class Holdings(NamedTuple):
     surroundings: tuple[Held, ...] = ()
     archives: tuple[Past, ...] = ()
 
+    def only(self, ways: frozenset[tuple[int, int]]) -> Holdings:
+        """Give what came on edges that are there still, by channel and source: all else is let go.
+
+        An archive stays for as long as its channel has an edge.
+        """
+        channels = {channel for channel, _ in ways}
+        left = Holdings(
+            _among(self.partners, ways),
+            _among(self.components, ways),
+            _among(self.surroundings, ways),
+            tuple(one for one in self.archives if one.channel in channels),
+        )
+        return left if left != NOTHING else NOTHING
+
 
 NOTHING: Final = Holdings()
 
@@ -138,3 +152,7 @@ def _entries(holdings: Holdings, channel: Channel) -> tuple[Held, ...]:
     if channel.kind == "partners":
         return holdings.partners
     return holdings.components if channel.kind == "components" else holdings.surroundings
+
+
+def _among(entries: Iterable[Held], ways: frozenset[tuple[int, int]]) -> tuple[Held, ...]:
+    return tuple(one for one in entries if (one.channel, one.source) in ways)

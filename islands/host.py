@@ -25,6 +25,7 @@ from islands.inputs import inputs_here
 from islands.island import Island
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
+from islands.mail import Bell, Porch
 from islands.migration.adapters import adapters_into
 from islands.migration.channel import Edge, Packet
 from islands.migration.routes import Redrawn, Routes
@@ -32,6 +33,7 @@ from islands.spec import IslandSpec
 from islands.state import Advance, State
 from islands.store import Store
 from islands.tally import IslandSummary, Tally
+from islands.wire import opened
 
 Schedule = Literal["barrier", "dataflow", "async"]
 Box = tuple[Packet, ...]
@@ -45,8 +47,8 @@ THREAD_VARIABLES: Final = (
     "VECLIB_MAXIMUM_THREADS",
 )  # fmt: skip
 
-POST_S: Final = 0.005
-"""Packets are gathered for so long, as long as an island of the host can step."""
+POST_S: Final = 0.001
+"""Packets are gathered for so long, as long as an island of the host can step and lags behind its others."""
 
 MOST_NAMED: Final = 3
 """Packets that are named when a host has waited in vain."""
@@ -175,6 +177,8 @@ class Host:
         For the log's events.
     post
         Hands packets to other hosts.
+    porch
+        Where letters of other hosts come in.
     """
 
     def __init__(
@@ -183,12 +187,13 @@ class Host:
         clock: Clock = time.perf_counter,
         calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
         post: Post = _nowhere,
+        porch: Porch | None = None,
     ) -> None:
         self._plan = plan
         self._clock = clock
         self._post = post
         self._stop = threading.Event()
-        self._bell = threading.Condition()
+        self._porch: Porch = porch or Bell()
         self._mail: deque[Box] = deque()
         self._islands: dict[int, Island[Any]] = {}
         self._states: dict[int, State[Any]] = {}
@@ -254,8 +259,7 @@ class Host:
     def stop(self) -> None:
         """Ask for the epoch in hand to be abandoned."""
         self._stop.set()
-        with self._bell:
-            self._bell.notify_all()
+        self._porch.ring()
 
     def step(self) -> Step:
         """Give what the host is at."""
@@ -267,8 +271,7 @@ class Host:
     def deliver(self, packets: Box) -> None:
         """Take packets from another host."""
         self._mail.append(packets)
-        with self._bell:
-            self._bell.notify_all()
+        self._porch.ring()
 
     # -- stepping ------------------------------------------------------------------------------------------------
 
@@ -315,14 +318,15 @@ class Host:
                 self._send()
                 self._wait()
                 continue
-            started = self._clock()
+            started, floor = self._clock(), self._agenda.floor
             self._turn = (*turn, started)
             self._take_turn(*turn)
             self._turn, ended = None, self._clock()
             self._busy += ended - started
-            if ended - self._posted > POST_S:
+            if ended - self._posted > POST_S or self._agenda.floor > floor:
                 self._send()
         self._send()
+        self._see_off()
 
     def _take_turn(self, number: int, epoch: int) -> None:
         """Step one island and pass on what it sends."""
@@ -348,6 +352,9 @@ class Host:
                 self._gathered.setdefault(host, []).append(packet)
 
     def _collect(self) -> None:
+        for letter in self._porch.letters():
+            for packet in opened(letter):
+                self._agenda.put(packet)
         while self._mail:
             for packet in self._mail.popleft():
                 self._agenda.put(packet)
@@ -362,11 +369,19 @@ class Host:
     def _wait(self) -> None:
         """Wait for packets, or for the wish to stop."""
         started = self._clock()
-        with self._bell:
-            heard = self._bell.wait_for(lambda: self._mail or self._stop.is_set(), self._plan.patience)
+        heard = self._mail or self._stop.is_set() or self._porch.wait(self._plan.patience)
         self._waited += self._clock() - started
         if not heard:
             raise StarvedError(self._lacking())
+
+    def _see_off(self) -> None:
+        """Wait until all that was posted has gone out: who hears that an epoch is done has its packets to hand."""
+        started = self._clock()
+        while self._porch.owing:
+            if not self._porch.wait(self._plan.patience):
+                raise StarvedError(f"waited {self._plan.patience:g} s for a host that takes no letters")
+            self._collect()
+        self._waited += self._clock() - started
 
     def _lacking(self) -> str:
         """Say what the host has waited for in vain."""
@@ -388,6 +403,8 @@ class Host:
     def _pulse(self) -> None:
         if self._stop.is_set():
             raise StoppedError
+        if self._porch.owing:
+            self._collect()
 
     # -- writing -------------------------------------------------------------------------------------------------
 

@@ -4,8 +4,9 @@
 (island, purpose, epoch): the same state and the same arrivals give the same result, bit for bit, in any process.
 Only the clock's columns differ from run to run.
 
-An epoch goes so: what channels of partners, components and surroundings bring is taken in, and where that changes how
-members score, the deme is scored again; then migrants join; then generations are bred; then each edge's packet is made.
+An epoch goes so: interventions that begin with it change goals, rates and members; what channels of partners,
+components and surroundings bring is taken in, and where any of that changes how members score, the deme is scored
+again; those who are inserted join, then migrants; then generations are bred; then each edge's packet is made.
 """
 
 from __future__ import annotations
@@ -17,27 +18,30 @@ from typing import Final, Generic, TypeVar, final
 from growth.protocol import Clock
 from islands.algorithms.breeding import Birth, breed
 from islands.algorithms.scheme import SCHEMES
-from islands.context import Contexts
+from islands.biologies import Biologies
 from islands.figures import figures
-from islands.holdings import NOTHING, Holdings, archived, taken_in
+from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
+from islands.interventions.intervention import Intervention, Subject, concerning
+from islands.interventions.registry import changed, joined
 from islands.kinds.protocol import Biology
-from islands.migration.channel import Channel, Edge, Migrant, Packet
+from islands.migration.channel import Edge, Packet
 from islands.migration.departures import Bundle, Departures, Standing, bundled
 from islands.migration.gate import Adapters, Gate
 from islands.migration.routes import Routes
-from islands.records import Crossing
+from islands.reception import Arrived, reason_of, received, rescored
+from islands.regime import Build, Regimes
 from islands.registrar import Registrar
 from islands.selection import ranked
 from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
+from islands.steered import Steered
 from islands.streams import EpochStreams, Purpose
 
 __all__ = ["Advance", "Island", "Pulse", "State"]
 
 G = TypeVar("G")
 Pulse = Callable[[], None]
-Arrived = tuple[Edge, Packet]
 
 _ORDER: Final = itemgetter(*map(Packet._fields.index, ("channel", "source", "epoch")))
 
@@ -63,6 +67,8 @@ class Island(Generic[G]):
     adapters
         The built adapters of the edges that end here and have one; see
         :func:`islands.migration.adapters.adapters_into`.
+    build
+        Makes the biology of goals that an intervention has changed; islands that share one share what it makes.
     """
 
     def __init__(
@@ -74,6 +80,7 @@ class Island(Generic[G]):
         clock: Clock,
         pulse: Pulse,
         adapters: Adapters | None = None,
+        build: Build | None = None,
     ) -> None:
         self.spec: Final = spec
         self.biology: Final = biology
@@ -83,22 +90,30 @@ class Island(Generic[G]):
         self._pulse: Final = pulse
         self._adapters: Final[Adapters] = adapters or {}
         self._scheme: Final = SCHEMES[spec.algorithm.name]
-        self._contexts: Final = Contexts(biology, routes.channels_into(spec.number))
+        into = routes.channels_into(spec.number)
+        self._regimes: Final = Regimes(spec, biology, into, build or Biologies(clock))
         # Edges as they are looked up, and the routes' own tuple that they were made of.
         self._doors: tuple[tuple[Edge, ...], Mapping[tuple[int, int], Edge]] = ((), {})
         self._bundles: tuple[tuple[Edge, ...], tuple[Bundle, ...]] = ((), ())
 
-    def begin(self) -> Advance[G]:
-        """Make and score the first population: epoch 0, generation 0."""
+    def begin(self, epoch: int = 0) -> Advance[G]:
+        """Make and score the first population: generation 0, in epoch 0, or in that in which the island is added."""
         started = self._clock()
-        streams = EpochStreams(self._seed, self.spec.number, 0)
-        registrar = Registrar(self.spec.number, 0, 0, 0, self._contexts.alone, streams, self._pulse)
+        streams = EpochStreams(self._seed, self.spec.number, epoch)
+        context = self._regimes.usual.contexts.alone
+        registrar = Registrar(self.spec.number, epoch, 0, 0, context, streams, self._pulse)
         deme = self._settled_anew(registrar, streams)
         diversity = self._summarise(deme, registrar, started)
         best = registrar.generations[-1].best
-        return self._ended(State(deme, 0, 0, registrar.counter, best), diversity, registrar, streams)
+        return self._ended(State(deme, epoch, 0, registrar.counter, best), diversity, registrar, streams)
 
-    def advance(self, state: State[G], generations: int, arrivals: Sequence[Packet]) -> Advance[G]:
+    def advance(
+        self,
+        state: State[G],
+        generations: int,
+        arrivals: Sequence[Packet],
+        interventions: Sequence[Intervention] = (),
+    ) -> Advance[G]:
         """Take in what arrived and breed one epoch of ``generations`` generations.
 
         Parameters
@@ -109,32 +124,33 @@ class Island(Generic[G]):
             How many to breed, at least 1.
         arrivals
             Packets in any order; they are taken in by channel, then source, then the epoch that they were sent in.
+        interventions
+            Those that take effect in this epoch, in their order; what is for other islands is passed over.
         """
         started = self._clock()
         number, epoch = self.spec.number, state.epoch + 1
         streams = EpochStreams(self._seed, number, epoch)
-        context = self._contexts.alone
+        context = self._regimes.of(state.steered).contexts.alone
         registrar = Registrar(number, epoch, state.generation, state.counter, context, streams, self._pulse)
-        deme, held, best, stagnant = state.deme, state.held, state.best, state.stagnant
+        own = concerning(interventions, self.spec.name)
         migrants, others = self._sorted(arrivals)
-        if others or held is not NOTHING:
-            held = self._taken_in(held, others, registrar)
-            deme, best = self._rescored(state, held, registrar, streams, told=bool(others))
+        subject, held, best = self._settled(state, own, others, registrar)
+        deme, steered, stagnant = subject.deme, subject.steered, state.stagnant
         if migrants:
-            gate = Gate(deme, self.spec.population, registrar, streams, self._adapters)
+            gate = Gate(deme, self.spec.population, registrar, streams, self._adapters, steered)
             for edge, packet in migrants:
                 gate.enter(edge, packet)
             deme = gate.deme()
         diversity = None
         for _ in range(generations):
             registrar.generation += 1
-            deme = self._bred(deme, registrar, streams)
+            deme = self._bred(deme, steered, registrar, streams)
             diversity = self._summarise(deme, registrar, started)
             started, stagnant = self._clock(), stagnant + 1
             now = registrar.generations[-1].best
             if now is not None and (best is None or now > best):
                 best, stagnant = now, 0
-        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held)
+        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
         return self._ended(after, diversity, registrar, streams)
 
     # -- arriving ------------------------------------------------------------------------------------------------
@@ -155,51 +171,52 @@ class Island(Generic[G]):
             self._doors = (edges, {(edge.channel.number, edge.source): edge for edge in edges})
         return self._doors[1][packet.channel, packet.source]
 
-    def _taken_in(self, held: Holdings, others: Sequence[Arrived], registrar: Registrar[G]) -> Holdings:
-        """Take in partners, components and surroundings, a row each."""
-        shown: dict[Channel, list[Migrant]] = {}
-        for edge, packet in others:
-            channel = edge.channel
-            held, reasons = taken_in(held, channel, packet)
-            ends = (registrar.epoch, channel.name, channel.kind, edge.source_name, edge.target_name)
-            for one, reason in zip(packet.migrants, reasons, strict=True):
-                registrar.crossings.append(Crossing(*ends, one.id, one.fitness, not reason, reason))
-            if channel.kind == "partners":
-                shown.setdefault(channel, []).extend(packet.migrants)
-        for channel, partners in shown.items():
-            held = archived(held, channel, partners)
-        return held
+    def _settled(
+        self, state: State[G], interventions: Sequence[Intervention], others: Sequence[Arrived], registrar: Registrar[G]
+    ) -> tuple[Subject[G], Holdings, float | None]:
+        """Let interventions, and all that arrived but migrants, take effect.
 
-    def _rescored(
-        self, state: State[G], held: Holdings, registrar: Registrar[G], streams: EpochStreams, *, told: bool
-    ) -> tuple[Deme[G], float | None]:
-        """Make the epoch's context; where it scores otherwise than the last one, score the deme again.
-
-        Gives the deme and its best so far: once the scores are others, those of before are no measure.
+        Gives the island as it is then, what it holds, and its best so far: once the scores are others, those of before
+        are no measure.
         """
-        context = registrar.context = self._contexts.of(held, streams)
-        if context.mishap and told:
-            registrar.note("holdings", {"detail": context.mishap})
-        if context.scoring == (state.scoring or self._contexts.alone.scoring):
-            return state.deme, state.best
-        among = self._contexts.among(held).scoring
-        alike = (state.scoring or among) == among or state.scoring.startswith(f"{among}+")
-        reason = "partners" if alike else "surroundings"
-        deme = tuple(registrar.score_again(one.id, one.genotype, reason, one.since) for one in state.deme)
-        return deme, max((one.fitness for one in deme if one.fitness is not None), default=None)
+        subject = changed(Subject(self.spec, state.deme, state.steered), interventions, registrar)
+        held, best = state.held, state.best
+        are_goals_new = subject.steered.goals != state.steered.goals
+        if others or held is not NOTHING or are_goals_new:
+            live = self._routes.live(self.spec.number, state.epoch)
+            held = received(held if live is None else held.only(live), others, registrar)
+            contexts = self._regimes.of(subject.steered).contexts
+            context = registrar.context = contexts.of(held, registrar.streams, live)
+            if context.mishap and others:
+                registrar.note("holdings", {"detail": context.mishap})
+            if context.scoring != (state.scoring or self._regimes.usual.contexts.alone.scoring):
+                reason = "weights" if are_goals_new else reason_of(state.scoring, contexts.among(held).scoring)
+                subject = subject._replace(deme=rescored(subject.deme, reason, registrar))
+                best = max((one.fitness for one in subject.deme if one.fitness is not None), default=None)
+        return joined(subject, interventions, registrar), held, best
 
     # -- breeding ------------------------------------------------------------------------------------------------
 
-    def _bred(self, deme: Deme[G], registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
-        """Give the deme of the next generation; where all have moved away, it is settled anew."""
+    def _bred(self, deme: Deme[G], steered: Steered, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
+        """Give the deme of the next generation; where all have moved away, it is settled anew.
+
+        Those who are locked breed with the others, and live beside those whom the algorithm lets live.
+        """
         if not deme:
             return self._settled_anew(registrar, streams)
-        settings, population = self.spec.algorithm, self.spec.population
-        order = ranked(deme)
-        count = self._scheme.offspring(settings, population, len(order))
+        settings = self._regimes.of(steered).algorithm
+        order = free = ranked(deme, steered.promoted)
+        kept: list[Individual[G]] = []
+        if steered.locked:
+            kept = [one for one in order if one.id in steered.locked]
+            free = [one for one in order if one.id not in steered.locked]
+        places = self.spec.population - len(kept)
+        if not places:
+            return deme
+        count = self._scheme.offspring(settings, places, len(free))
         births = breed(registrar.context.biology, order, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
-        return self._scheme.survivors(settings, population, order, children)
+        return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
 
     def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
         biology, rng = registrar.context.biology, streams(Purpose.INITIAL)
@@ -227,13 +244,15 @@ class Island(Generic[G]):
         packets: tuple[Packet, ...] = ()
         if edges:
             standing = Standing(state.epoch, state.stagnant, diversity, context.scoring)
-            leaving = Departures(deme, context.biology, standing, streams)
+            leaving = Departures(deme, context.biology, standing, streams, state.steered)
             packets = leaving.packets(self._bundles[1])
             for identity, why in leaving.mishaps:
                 registrar.note("offer", {"id": identity, "detail": why})
             if leaving.gone:
                 deme = tuple(member for member in deme if member.id not in leaving.gone)
+        steered = state.steered.among(one.id for one in deme)
         after = State(
-            deme, state.epoch, state.generation, state.counter, state.best, state.stagnant, state.held, context.scoring
-        )
+            deme, state.epoch, state.generation, state.counter, state.best, state.stagnant, state.held,
+            context.scoring, steered,
+        )  # fmt: skip
         return Advance(after, packets, registrar.records())

@@ -40,8 +40,8 @@ class Registrar(Generic[G]):
     """
 
     __slots__ = (
-        "_island", "_pulse", "_streams", "born", "context", "counter", "crossings", "epoch", "evaluations",
-        "generation", "generations", "notes", "rescored",
+        "_island", "_pulse", "born", "context", "counter", "crossings", "epoch", "evaluations", "generation",
+        "generations", "notes", "rescored", "streams",
     )  # fmt: skip
 
     def __init__(
@@ -55,7 +55,7 @@ class Registrar(Generic[G]):
         pulse: Callable[[], None],
     ) -> None:
         self._island = island
-        self._streams = streams
+        self.streams = streams
         self._pulse = pulse
         self.epoch = epoch
         self.generation = generation
@@ -109,7 +109,7 @@ class Registrar(Generic[G]):
         )
 
     def _score(self, genotype: G, identity: int) -> tuple[Evaluation, tuple[int, ...]]:
-        found, partners = self.context.score(genotype, self._streams, self._pulse)
+        found, partners = self.context.score(genotype, self.streams, self._pulse)
         self.evaluations += 1
         for kind, detail in found.notes:
             self.note(kind, {"id": identity, **detail})

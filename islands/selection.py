@@ -13,9 +13,19 @@ from islands.individual import Individual, merit
 G = TypeVar("G")
 
 
-def ranked(deme: Sequence[Individual[G]]) -> list[Individual[G]]:
-    """Sort a deme, the best first; the invalid stand last, equals by the lower id."""
-    return sorted(deme, key=merit)
+def ranked(deme: Sequence[Individual[G]], promoted: Sequence[int] = ()) -> list[Individual[G]]:
+    """Sort a deme, the best first; the invalid stand last, equals by the lower id.
+
+    Members that are ``promoted``, by their ids, stand before all others, in the order of these ids.
+    """
+    if not promoted:
+        return sorted(deme, key=merit)
+    return sorted(deme, key=lambda member: (standing(member.id, promoted), *merit(member)))
+
+
+def standing(identity: int, promoted: Sequence[int]) -> int:
+    """Give a member's place among those promoted; of any other the place after them all."""
+    return promoted.index(identity) if identity in promoted else len(promoted)
 
 
 def tournaments(size: int, entrants: int, rounds: int, rng: np.random.Generator) -> NDArray[np.int64]:

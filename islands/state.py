@@ -9,6 +9,7 @@ from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
 from islands.migration.channel import Packet
 from islands.records import Records
+from islands.steered import UNSTEERED, Steered
 
 G = TypeVar("G")
 Deme = tuple[Individual[G], ...]
@@ -35,6 +36,8 @@ class State(Generic[G]):
         What channels other than of migrants brought.
     scoring
         Names the context in which the members are scored.
+    steered
+        What interventions have changed for good.
     """
 
     deme: Deme[G]
@@ -45,6 +48,7 @@ class State(Generic[G]):
     stagnant: int = 0
     held: Holdings = NOTHING
     scoring: str = ""
+    steered: Steered = UNSTEERED
 
     def with_deme(self, deme: Deme[G]) -> State[G]:
         """Give the same state with another deme."""

@@ -32,6 +32,7 @@ class Generational:
         population: int,
         order: Sequence[Individual[G]],
         children: Sequence[Individual[G]],
+        promoted: Sequence[int] = (),
     ) -> tuple[Individual[G], ...]:
         """Put the elite before the offspring, which stay in the order of their births."""
         del population
@@ -39,7 +40,7 @@ class Generational:
         if settings.elitism == "keep":
             return (*elite, *children)
         standing = ranked(children)
-        restored = [member for member in elite if beats(member, standing[0])]
+        restored = [member for member in elite if member.id in promoted or beats(member, standing[0])]
         if not restored:
             return tuple(children)
         lost = {child.id for child in standing[-len(restored) :]}

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, TypeVar, final
 
 from islands.individual import Individual
+from islands.selection import standing
 from islands.settings import Algorithm
 
 G = TypeVar("G")
@@ -31,10 +32,14 @@ class Plus:
         population: int,
         order: Sequence[Individual[G]],
         children: Sequence[Individual[G]],
+        promoted: Sequence[int] = (),
     ) -> tuple[Individual[G], ...]:
         """Give the best of all, best first."""
         del settings
-        return tuple(sorted((*order, *children), key=_youth)[:population])
+        everyone = (*order, *children)
+        if not promoted:
+            return tuple(sorted(everyone, key=_youth)[:population])
+        return tuple(sorted(everyone, key=lambda one: (standing(one.id, promoted), *_youth(one)))[:population])
 
 
 def _youth(member: Individual[Any]) -> tuple[float, int, int]:

@@ -26,6 +26,7 @@ class Scheme(Protocol):
         population: int,
         order: Sequence[Individual[Any]],
         children: Sequence[Individual[Any]],
+        promoted: Sequence[int] = (),
     ) -> tuple[Individual[Any], ...]:
         """Give the next deme.
 
@@ -37,6 +38,8 @@ class Scheme(Protocol):
             The deme, best first.
         children
             Its offspring, in the order of their births.
+        promoted
+            Ids of members that stand at the head of ``order`` whatever their fitness; they beat everyone.
         """
         ...
 

@@ -145,6 +145,8 @@ class Edge:
         The probability that it carries when its channel does.
     adapter
         Name or import path of what translates genotypes on the way; empty for none.
+    since, until
+        It carries at the ends of epochs from ``since`` on, and before ``until``; always without one.
     """
 
     channel: Channel
@@ -154,6 +156,12 @@ class Edge:
     target_name: str
     weight: float = 1.0
     adapter: str = ""
+    since: int = 0
+    until: int | None = None
+
+    def is_there(self, epoch: int) -> bool:
+        """Tell whether it is there at the end of an epoch."""
+        return self.since <= epoch and (self.until is None or epoch < self.until)
 
 
 class Migrant(NamedTuple):

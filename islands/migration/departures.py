@@ -12,6 +12,7 @@ from islands.migration.channel import Channel, Edge, Migrant, Packet
 from islands.migration.emigrants import Crowd, emigrants
 from islands.migration.triggers import pulled
 from islands.selection import ranked
+from islands.steered import UNSTEERED, Steered
 from islands.streams import EpochStreams, Purpose
 
 Bundle = tuple[Channel, tuple[Edge, ...]]
@@ -63,6 +64,8 @@ class Departures:
         See :class:`Standing`.
     streams
         EMIGRANTS and ROUTING, by channel, draw.
+    steered
+        Says which members are promoted, and rank first, or locked, and never move away.
 
     Attributes
     ----------
@@ -72,16 +75,22 @@ class Departures:
         What could not be offered: ids, and why.
     """
 
-    __slots__ = ("_biology", "_crowd", "_deme", "_standing", "_streams", "_texts", "gone", "mishaps")
+    __slots__ = ("_biology", "_crowd", "_deme", "_standing", "_steered", "_streams", "_texts", "gone", "mishaps")
 
     def __init__(
-        self, deme: Sequence[Individual[Any]], biology: Biology[Any], standing: Standing, streams: EpochStreams
+        self,
+        deme: Sequence[Individual[Any]],
+        biology: Biology[Any],
+        standing: Standing,
+        streams: EpochStreams,
+        steered: Steered = UNSTEERED,
     ) -> None:
         self._deme: Final = deme
         self._crowd: Crowd | None = None
         self._biology: Final = biology
         self._standing: Final = standing
         self._streams: Final = streams
+        self._steered: Final = steered
         self._texts: Final[dict[tuple[str, int], str | None]] = {}
         self.gone: Final[set[int]] = set()
         self.mishaps: Final[list[tuple[int, str]]] = []
@@ -120,17 +129,21 @@ class Departures:
 
     def _chosen(self, channel: Channel) -> tuple[Migrant, ...]:
         if self._crowd is None:
-            self._crowd = Crowd(ranked(self._deme), self._biology)
+            promoted = self._steered.promoted
+            self._crowd = Crowd(ranked(self._deme, promoted), self._biology, promoted=promoted)
         crowd = self._crowd
         if channel.kind in ("components", "surroundings"):
-            valid = [place for place, one in enumerate(crowd.order) if one.fitness is not None]
-            if len(valid) < len(crowd):
-                crowd = crowd.without(range(len(valid), len(crowd)))
+            invalid = [place for place, one in enumerate(crowd.order) if one.fitness is None]
+            if invalid:
+                crowd = crowd.without(invalid)
+        if channel.move and self._steered.locked:
+            crowd = crowd.without([place for place, one in enumerate(crowd.order) if one.id in self._steered.locked])
         places = emigrants(crowd, channel.size(len(self._deme)), channel, self._streams)
         chosen = [crowd.order[place] for place in places]
         if channel.move:
-            self.gone.update(one.id for one in chosen)
-            self._crowd = self._crowd.without(places)
+            gone = {one.id for one in chosen}
+            self.gone.update(gone)
+            self._crowd = self._crowd.without([place for place, one in enumerate(self._crowd.order) if one.id in gone])
         return tuple(
             Migrant(one.id, text, one.fitness, one.scores, one.error)
             for one in chosen

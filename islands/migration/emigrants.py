@@ -28,19 +28,35 @@ class Crowd:
         The members, best first.
     biology
         Tells how different two are.
+    promoted
+        Ids of those who stand at the head whatever their fitness.
     """
 
-    __slots__ = ("_apart", "_biology", "order")
+    __slots__ = ("_apart", "_biology", "_promoted", "order")
 
     def __init__(
-        self, order: Sequence[Individual[Any]], biology: Biology[Any], apart: NDArray[np.float64] | None = None
+        self,
+        order: Sequence[Individual[Any]],
+        biology: Biology[Any],
+        apart: NDArray[np.float64] | None = None,
+        promoted: Sequence[int] = (),
     ) -> None:
         self.order: Final = order
         self._biology: Final = biology
         self._apart = apart
+        self._promoted: Final = promoted
 
     def __len__(self) -> int:
         return len(self.order)
+
+    def worth(self) -> list[float]:
+        """Give the fitness of the valid, from the highest down; one who is promoted is worth as much as the best."""
+        fitness = [one.fitness for one in self.order if one.fitness is not None]
+        if not self._promoted or not fitness:
+            return fitness
+        best = max(fitness)
+        known = [best if one.id in self._promoted else one.fitness for one in self.order]
+        return [value for value in known if value is not None]
 
     def apart(self) -> NDArray[np.float64]:
         """Give the distances of all members from all, (n, n), 0 where the kind tells none that is a number."""
@@ -59,7 +75,7 @@ class Crowd:
         gone = set(places)
         left = [place for place in range(len(self.order)) if place not in gone]
         apart = None if self._apart is None else self._apart[np.ix_(left, left)]
-        return Crowd([self.order[place] for place in left], self._biology, apart)
+        return Crowd([self.order[place] for place in left], self._biology, apart, self._promoted)
 
 
 Choose = Callable[[Crowd, int, Channel, EpochStreams], list[int]]
@@ -98,7 +114,7 @@ def roulette(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) 
     """
     rng = streams(Purpose.EMIGRANTS, channel.number)
     # Halved, so that no difference of two finite values is infinite.
-    halves = [one.fitness / 2 for one in crowd.order if one.fitness is not None]
+    halves = [value / 2 for value in crowd.worth()]
     span = halves[0] - halves[-1] if halves else 0.0
     weights = [(half - halves[-1]) / span for half in halves] if span > 0 else []
     weighty, valid, size = sum(weight > 0 for weight in weights), len(halves), len(crowd)

@@ -17,6 +17,7 @@ from islands.migration.replacement import BY_GENOTYPE, REPLACERS
 from islands.records import Crossing
 from islands.registrar import Registrar
 from islands.selection import ranked
+from islands.steered import UNSTEERED, Steered
 from islands.streams import EpochStreams
 
 G = TypeVar("G")
@@ -41,9 +42,11 @@ class Gate(Generic[G]):
         REPLACEMENT, by channel, draws.
     adapters
         Of the edges that have one.
+    steered
+        Says which members are promoted, and beaten by nobody, or locked, and replaced by nobody.
     """
 
-    __slots__ = ("_adapters", "_free", "_ids", "_registrar", "_residents", "_settled", "_streams")
+    __slots__ = ("_adapters", "_free", "_ids", "_kept", "_promoted", "_registrar", "_residents", "_settled", "_streams")
 
     def __init__(
         self,
@@ -52,8 +55,12 @@ class Gate(Generic[G]):
         registrar: Registrar[G],
         streams: EpochStreams,
         adapters: Adapters,
+        steered: Steered = UNSTEERED,
     ) -> None:
-        self._residents: Final = ranked(deme)
+        order = ranked(deme, steered.promoted)
+        self._residents: Final = [one for one in order if one.id not in steered.locked]
+        self._kept: Final = [one for one in order if one.id in steered.locked]
+        self._promoted: Final = steered.promoted
         self._settled: Final[list[Individual[G]]] = []
         self._ids: Final = {one.id for one in deme}
         self._free = population - len(deme)
@@ -62,8 +69,8 @@ class Gate(Generic[G]):
         self._adapters: Final = adapters
 
     def deme(self) -> tuple[Individual[G], ...]:
-        """Give the deme as it is by now: the residents left, best first, then those who came, in their order."""
-        return (*self._residents, *self._settled)
+        """Give the deme as it is by now: the locked and the residents left, best first, then those who came."""
+        return (*self._kept, *self._residents, *self._settled)
 
     def enter(self, edge: Edge, packet: Packet) -> None:
         """Let the migrants of a packet stand at the gate, one after the other; each is one row."""
@@ -95,7 +102,9 @@ class Gate(Generic[G]):
         if not self._free:
             biology, genotype = self._registrar.context.biology, None if newcomer is None else newcomer.genotype
             place = REPLACERS[channel.replace](self._residents, genotype, biology, channel, self._streams)
-            if channel.accept == "better" and not beats(newcomer or migrant, self._residents[place]):
+            resident = self._residents[place]
+            wins = resident.id not in self._promoted and beats(newcomer or migrant, resident)
+            if channel.accept == "better" and not wins:
                 return "not better"
         if newcomer is None:
             read = self._read(edge, packet, migrant)

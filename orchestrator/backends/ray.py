@@ -17,7 +17,7 @@ from genome.errors import InputError
 from islands.host import HostPlan, Step
 from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
 from orchestrator.backends.apart import sessions_of_their_own
-from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
+from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, send_home_helpers, settle_environment
 from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError
 
 OBJECT_STORE_BYTES: Final = 100 * 2**20
@@ -111,6 +111,8 @@ class RayBackend:
         except Exception as error:  # noqa: BLE001 - Ray's start raises errors of many kinds
             where = "Ray did not start" if self._address is None else f"no Ray cluster at {self._address}"
             raise RunFailedError(f"{where}: {_one_line(error)}") from None
+        if self._address is None:
+            send_home_helpers()
         if self._address is not None:
             resources: Any = ray.available_resources
             self._cpus = math.floor(resources().get("CPU", 0.0))

@@ -1,0 +1,49 @@
+"""Biologies as they are called for: islands that are alike in all that a biology sees share one."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Final, final
+
+from growth.protocol import Clock
+from islands.kinds.protocol import Biology
+from islands.kinds.registry import resolve_kind
+from islands.spec import IslandSpec
+
+REMEMBERED: Final = 4
+"""Biologies of one group of islands that are kept, the last ones called for: an environment may be large."""
+
+
+@final
+class Biologies:
+    """Makes biologies, and remembers them by group and goals: all in which those of a run may differ.
+
+    An island that is steered to other goals than its group's calls for another one.
+
+    Parameters
+    ----------
+    clock
+        Of the biologies.
+    """
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock: Final = clock
+        self._made: Final[dict[str, dict[str, Biology[Any]]]] = {}
+
+    def __call__(self, spec: IslandSpec) -> Biology[Any]:
+        """Give the biology of an island with these settings.
+
+        Raises
+        ------
+        InputError
+            When its kind makes none of them.
+        """
+        group = self._made.setdefault(spec.group, {})
+        goals = json.dumps(dict(spec.fitness), sort_keys=True)
+        found = group.pop(goals, None)
+        if found is None:
+            found = resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock)
+        group[goals] = found
+        if len(group) > REMEMBERED:
+            del group[next(iter(group))]
+        return found
