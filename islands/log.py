@@ -8,7 +8,8 @@ names.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from datetime import datetime
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
@@ -17,7 +18,7 @@ from genome.mishaps import plain
 from islands.records import Records
 from islands.schemas import TABLES, schema, stored
 from islands.spec import IslandSpec
-from islands.store import Anywhere, Store
+from islands.store import Anywhere, Store, StoreError
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -117,7 +118,7 @@ class LogWriter:
         tables = {name: self._table(name, parts) for name in TABLES if name != "events"}
         tables["events"] = events_table(self._run, events)
         wanted = {name: table for name, table in tables.items() if table.num_rows or not self._begun}
-        files = [write(self._folder, name, span, table) for name, table in wanted.items()]
+        files = self._written(span, wanted)
         self._buffer = [part for part in self._buffer if part[0] > through]
         self._events = [event for event in self._events if (event.epoch or 0) > through]
         self._files.extend(files)
@@ -130,6 +131,19 @@ class LogWriter:
         while self._folder.exists(f"events/{found}.parquet"):
             found, number = f"{span}-{number}", number + 1
         return found
+
+    def _written(self, span: str, tables: Mapping[str, pa.Table]) -> list[LogFile]:
+        """Write the files of one span, all or none: what is written later may cover its epochs under another name."""
+        files: list[LogFile] = []
+        try:
+            for name, table in tables.items():
+                files.append(write(self._folder, name, span, table))
+        except BaseException:
+            for file in files:
+                with suppress(StoreError):
+                    self._folder.remove(file.name)
+            raise
+        return files
 
     def warm(self) -> None:
         """Import what writing needs, so that no epoch has to wait for it: some of it comes with the first table."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 from datetime import UTC, datetime
 
 import pyarrow as pa
@@ -14,6 +16,7 @@ from islands.individual import Evaluation
 from islands.log import LogWriter
 from islands.migration.channel import Channel
 from islands.schemas import TABLES, VERSION, columns, schema
+from islands.store import StoreError
 
 NOON = datetime(2026, 1, 2, 12, 0, 0, tzinfo=UTC)
 
@@ -143,6 +146,27 @@ def test_an_error_and_a_detail_that_are_no_utf_8_lose_nothing_of_the_log(tmp_pat
     details = [json.loads(text) for text in pq.read_table(tmp_path / "events")["detail"].to_pylist()]
     assert details[0] == {"id": 0, "why": "a \\udcff", "how much": "inf"}
     assert details[-1] == {"detail": "b\\udcff"}
+
+
+def test_a_span_is_written_with_all_its_tables_or_not_at_all(tmp_path, monkeypatch) -> None:
+    isle = island(0)
+    log = LogWriter(tmp_path, "test", [isle.spec], lambda: NOON)
+    log.add(0, 0, isle.begin().records)
+    real, written = os.fsync, []
+
+    def filling(number: int) -> None:
+        written.append(number)
+        if len(written) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        real(number)
+
+    monkeypatch.setattr(os, "fsync", filling)
+    with pytest.raises(StoreError, match="got no space left on device; make room on the disk"):
+        log.flush()
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    # What could not be written is still there to be written.
+    assert len(log.flush()) == len(TABLES)
+    assert pq.read_table(tmp_path / "individuals").num_rows == isle.spec.population
 
 
 def stepped(log: LogWriter, epochs, isle=None) -> None:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -18,13 +19,17 @@ from click.testing import CliRunner
 
 from experiments import Silent, bits, run, write
 from genome.errors import InputError
+from islands.host import Host
 from islands.schemas import TABLES
-from islands.store import Store
+from islands.store import Store, StoreError
+from islands.stores.remote import RemoteStore
+from orchestrator import query
 from orchestrator.backends.protocol import RunFailedError
 from orchestrator.cli import main
 from orchestrator.digest import digest
 from orchestrator.folder import create, open_run
 from orchestrator.loading import load_experiment
+from orchestrator.plan import host_plans, make_plan
 from orchestrator.query import ask
 from orchestrator.run import Outcome, make_backend, run_experiment
 
@@ -143,6 +148,12 @@ def test_what_an_experiment_names_goes_with_the_run(endpoint: str, tmp_path) -> 
         path.unlink()
     assert [name for name in files(far) if name.startswith("environment/")]
     assert atoll("replay", far, "--runs-dir", tmp_path / "again")["same"]
+    # A host on another machine has nothing but the place.
+    made = open_run(str(far))
+    loaded = load_experiment(made.experiment)
+    (plan,) = host_plans(loaded, make_plan(loaded), 1, made.name, made.store)
+    elsewhere = tuple(replace(spec, base="/nowhere") for spec in plan.islands)
+    assert Host(replace(plan, islands=elsewhere)).ready() == 0
 
 
 def test_names_are_numbered_by_default_and_refused_when_asked_for(endpoint: str, tmp_path) -> None:
@@ -176,9 +187,23 @@ def test_of_runs_that_start_together_each_has_a_name_of_its_own(endpoint: str, t
         assert open_run(f"s3://bucket/together-False/{name}").manifest()["run"] == name
 
 
-def test_a_failed_start_leaves_nothing(endpoint: str, tmp_path, monkeypatch) -> None:
-    from islands.host import Host
+def test_a_folder_is_filled_before_its_manifest_and_goes_when_that_fails(endpoint: str, tmp_path, monkeypatch) -> None:
+    real, seen = RemoteStore.write, []
 
+    def failing(self, name, content, staging=""):
+        if name == "manifest.json":
+            seen.extend(files(self))
+            raise StoreError(name, "a file that can be written", "nothing of the kind")
+        real(self, name, content, staging)
+
+    monkeypatch.setattr(RemoteStore, "write", failing)
+    with pytest.raises(StoreError, match="nothing of the kind"):
+        run_far(tmp_path, "s3://bucket/unfilled")
+    assert seen == ["experiment.yaml"]
+    assert files(Store.open("s3://bucket/unfilled")) == []
+
+
+def test_a_failed_start_leaves_nothing(endpoint: str, tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(Host, "ready", lambda self: (_ for _ in ()).throw(InputError("here", "a", "b")))
     with pytest.raises(RunFailedError, match="here: expected a, got b"):
         run_far(tmp_path, "s3://bucket/failed")
@@ -216,8 +241,6 @@ def test_keys_that_are_wrong_are_told_before_anything_runs(tmp_path) -> None:
 
 
 def test_a_store_that_goes_away_in_mid_run_fails_the_run_with_its_reason(tmp_path, monkeypatch) -> None:
-    from islands.host import Host
-
     real, server = Host._take_turn, ExitStack()
 
     def leaving(self, number, epoch):
@@ -234,6 +257,17 @@ def test_a_store_that_goes_away_in_mid_run_fails_the_run_with_its_reason(tmp_pat
         result = CliRunner().invoke(main, ["run", str(path), "--runs-dir", "s3://bucket/runs", "--json"])
     assert (result.exit_code, result.stdout) == (1, ""), result.output
     assert "parquet: expected a file that can be written, got no connection (" in result.stderr.splitlines()[-1]
+
+
+def test_a_store_that_goes_away_in_mid_query_is_no_fault_of_the_query(tmp_path, monkeypatch) -> None:
+    with serving() as url, reaching(url):
+        log = run_far(tmp_path, "s3://bucket/runs").store.at("log")
+        connection = query.connect(log)
+    monkeypatch.setattr(query, "connect", lambda log: connection)
+    with pytest.raises(
+        StoreError, match=r"s3://bucket/runs/bits/log: expected a log that can be read, got no connection"
+    ):
+        ask(log, "select max(fitness) from individuals")
 
 
 @pytest.mark.ray
