@@ -94,8 +94,10 @@ def test_islands_are_named_by_an_option() -> None:
         (
             ("connect", "ring"),
             {},
-            "steer connect: expected a channel: keys and values, got 'ring'; for example: connect '{kind: "
-            "migrants, from: north-0, to: south}'",
+            (
+                "steer connect: expected a channel: keys and values, got 'ring'; for example: connect '{kind: "
+                "migrants, from: north-0, to: south}'"
+            ),
         ),
     ],
 )
@@ -139,8 +141,10 @@ def test_goals_are_those_of_islands_that_have_them(structure) -> None:
         (
             "weight ones=1 zeros=1",
             (),
-            "steer weight: expected criteria of one island, got ones and zeros, which are goals of "
-            "different islands; give a command for each",
+            (
+                "steer weight: expected criteria of one island, got ones and zeros, which are goals of "
+                "different islands; give a command for each"
+            ),
         ),
         (
             "weight ones=1",
@@ -160,15 +164,19 @@ def test_goals_are_those_of_islands_that_have_them(structure) -> None:
         (
             "rate offspring=3",
             (),
-            "steer rate on north: expected no offspring with the algorithm 'generational', got 3; did you "
-            "mean name: plus?",
+            (
+                "steer rate on north: expected no offspring with the algorithm 'generational', got 3; did you "
+                "mean name: plus?"
+            ),
         ),
         ("promote 1", ("nroth",), "steer promote: expected an island of the run, got 'nroth'; did you mean 'north'?"),
         (
             "lock 4398046511104",
             (),
-            "steer lock: expected the id of an individual of the run, got 4398046511104, which would be "
-            "of an island number 4",
+            (
+                "steer lock: expected the id of an individual of the run, got 4398046511104, which would be "
+                "of an island number 4"
+            ),
         ),
         (
             "remove-island nort",
