@@ -13,6 +13,7 @@ from steered import Steered
 
 from experiments import bits, write
 from genome.errors import InputError
+from islands.biologies import Biologies
 from islands.individual import make_id
 from islands.interventions.intervention import Intervention
 from islands.store import Store
@@ -22,6 +23,7 @@ from orchestrator.steering.command import Command, Request
 from orchestrator.steering.desk import Desk
 from orchestrator.steering.journal import FILE, Journal, interventions_at, read_commands, structural
 from orchestrator.steering.mailbox import Answer, await_answer, letters, post, reply
+from orchestrator.steering.past import Past
 
 WEIGHT = Request("weight", {"values": {"ones": 2.0}})
 ENDED = Answer(accepted=False, epoch=None, reason="the run has finished")
@@ -336,3 +338,27 @@ def test_a_run_that_does_not_answer_is_given_up(folder) -> None:
     assert (code, out) == (1, "")
     assert f"{folder}: no answer from the run within 0 s, the command was withdrawn" in err
     assert not list((folder / "inbox").iterdir())
+
+
+def test_individuals_of_a_steered_run_are_scored_by_the_goals_of_their_epoch(store, loaded) -> None:
+    desk = Desk(store, loaded)
+    run = Steered(desk.plan(), 7)
+    lines = {
+        2: [Request("add-island", {"name": "west", "like": "north", "set": []}), WEIGHT],
+        4: [Request("target", {"values": {"ones": 9}, "islands": ["north-0", "west"]})],
+        5: [Request("rate", {"values": {"mutation": 1.0}}), Request("weight", {"values": {"ones": 0.5}})],
+    }
+    for epoch in range(7):
+        for place, request in enumerate(lines.get(epoch, ())):
+            post(store, request, f"{epoch}-{place}", "me")
+        desk.look(epoch)
+        run.remake(desk.plan())
+        run.step(desk.commands)
+    past, build = Past(read_commands(store), desk.plan().islands), Biologies(lambda: 0.0)
+    scorings = set()
+    for (number, epoch), records in run.records.items():
+        biology = build(past.spec(desk.plan().islands[number].name, epoch))
+        scorings.add((number, biology.scoring))
+        for row in records.born:
+            assert biology.evaluate(biology.decode(row.genotype)).fitness == row.fitness
+    assert [sum(number == one for number, _ in scorings) for one in range(5)] == [4, 3, 3, 3, 3]
