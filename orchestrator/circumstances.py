@@ -31,6 +31,9 @@ from orchestrator.plan import Plan
 Marks = tuple[tuple[str, str, int], ...]
 """Packets of one island: channel, source, and the epoch at whose end each was sent."""
 
+Key = tuple[str, str, Marks]
+"""An island, how it scored while it held nothing, and the packets whose forms it had around it."""
+
 
 @final
 class Circumstances:
@@ -47,11 +50,11 @@ class Circumstances:
     late
         As :class:`~orchestrator.history.History` takes it.
     biology
-        Gives the biology of an island that holds nothing, by its name.
+        Gives the biology of an island that holds nothing, by its name, and by its goals in an epoch.
     """
 
     def __init__(
-        self, folder: RunFolder, plan: Plan, seed: int, late: bool, biology: Callable[[str], Biology[Any]]
+        self, folder: RunFolder, plan: Plan, seed: int, late: bool, biology: Callable[[str, int], Biology[Any]]
     ) -> None:
         channels = [edge.channel for edge in plan.edges] + [redrawn.channel for redrawn in plan.redrawn]
         self._channels: Final = {channel.name: channel for channel in channels}
@@ -61,8 +64,8 @@ class Circumstances:
         self._routes: Final = Routes(plan.edges, plan.redrawn, seed)
         self._seed: Final = seed
         self._biology: Final = biology
-        self._made: Final[dict[tuple[str, Marks], Context[Any]]] = {}
-        self._texts: Final[dict[tuple[str, Marks, ChannelKind, int], str]] = {}
+        self._made: Final[dict[Key, Context[Any]]] = {}
+        self._texts: Final[dict[tuple[str, str, Marks, ChannelKind, int], str]] = {}
         self._companies: Final[dict[tuple[str, int], Sides | None]] = {}
 
     def biology(self, island: str, epoch: int) -> Biology[Any]:
@@ -104,30 +107,39 @@ class Circumstances:
         while pending:
             name, then = pending[-1]
             around = self._around(name, then)
-            key = name, _marks(around)
+            key = self._key(name, then)
             before = [] if key in self._made else [(one.source, one.sent) for one in around]
             before = [(source, sent) for source, sent in before if self._key(source, sent) not in self._made]
             if before:
                 pending += before
                 continue
             if key not in self._made:
-                self._made[key] = self._among(name, around)
+                self._made[key] = self._among(name, then, around)
             pending.pop()
         return self._made[self._key(island, epoch)]
 
     def _around(self, island: str, epoch: int) -> list[Parcel]:
         """Give the packets whose forms an island had around it in an epoch."""
-        biology: object = self._biology(island)
-        return self._history.last(island, "surroundings", epoch) if isinstance(biology, Situated) else []
+        biology: object = self._biology(island, epoch)
+        return self._shown(island, "surroundings", epoch) if isinstance(biology, Situated) else []
 
-    def _key(self, island: str, epoch: int) -> tuple[str, Marks]:
-        return island, _marks(self._around(island, epoch))
+    def _shown(self, island: str, kind: ChannelKind, epoch: int) -> list[Parcel]:
+        """Give the last that each source had brought an island, of edges that were there still."""
+        found = self._history.last(island, kind, epoch)
+        live = self._routes.live(self._specs[island].number, epoch - 1)
+        if live is None:
+            return found
+        ways = [(self._channels[one.channel].number, self._specs[one.source].number) for one in found]
+        return [one for one, way in zip(found, ways, strict=True) if way in live]
 
-    def _among(self, island: str, around: Sequence[Parcel]) -> Context[Any]:
+    def _key(self, island: str, epoch: int) -> Key:
+        return island, self._biology(island, epoch).scoring, _marks(self._around(island, epoch))
+
+    def _among(self, island: str, epoch: int, around: Sequence[Parcel]) -> Context[Any]:
         held = NOTHING
         for parcel in around:
             held = self._taken(held, island, parcel, "surroundings")
-        return Contexts(self._biology(island), ()).among(held)
+        return Contexts(self._biology(island, epoch), ()).among(held)
 
     # -- partners ------------------------------------------------------------------------------------------------
 
@@ -136,11 +148,14 @@ class Circumstances:
         if (island, epoch) not in self._companies:
             number = self._specs[island].number
             channels = [one for one in self._routes.channels_into(number) if one.kind == "partners"]
+            live = self._routes.live(number, epoch - 1)
+            if live is not None:
+                channels = [one for one in channels if any(one.number == channel for channel, _ in live)]
             held = NOTHING
             for channel in channels:
                 if channel.pairing is not None and channel.pairing.archive:
                     held = self._archived(held, island, epoch, channel)
-            for parcel in self._history.last(island, "partners", epoch):
+            for parcel in self._shown(island, "partners", epoch):
                 held = self._taken(held, island, parcel, "partners")
             self._companies[island, epoch] = sides_of(channels, held, EpochStreams(self._seed, number, epoch))
         return self._companies[island, epoch]

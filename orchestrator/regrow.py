@@ -9,15 +9,17 @@ from pathlib import Path
 from typing import Any
 
 from genome.errors import InputError
+from islands.biologies import Biologies
 from islands.individual import Evaluation, Scores
 from islands.kinds.protocol import Biology
-from islands.kinds.registry import resolve_kind
-from islands.spec import IslandSpec
 from orchestrator.circumstances import Circumstances
 from orchestrator.folder import RunFolder
 from orchestrator.loading import load_experiment
-from orchestrator.plan import make_plan
 from orchestrator.query import ask
+from orchestrator.steering.journal import read_commands
+from orchestrator.steering.past import Past
+from orchestrator.steering.restructuring import replayed
+from orchestrator.steering.structure import structure_of
 
 COLUMNS = "id, island, epoch, genotype, fitness, scores, error, partners"
 
@@ -97,19 +99,16 @@ class Nursery:
     def __init__(self, folder: RunFolder) -> None:
         loaded = load_experiment(folder.experiment)
         self._run = folder.name
-        plan = make_plan(loaded)
-        self._specs: dict[str, IslandSpec] = {spec.name: spec for spec in plan.islands}
-        self._made: dict[str, Biology[Any]] = {}
+        commands = read_commands(folder.store)
+        plan = replayed(structure_of(loaded), commands).plan()
+        self._past = Past(commands, plan.islands)
+        self._biologies = Biologies(time.perf_counter)
         late = loaded.experiment.schedule == "async"
         self._circumstances = Circumstances(folder, plan, loaded.experiment.seed, late, self.biology)
 
-    def biology(self, island: str) -> Biology[Any]:
-        """Give the biology of an island by name, as it is while it holds nothing."""
-        spec = self._specs[island]
-        if spec.group not in self._made:
-            kind = resolve_kind(spec.kind, spec.where("kind"))
-            self._made[spec.group] = kind.build(spec, time.perf_counter)
-        return self._made[spec.group]
+    def biology(self, island: str, epoch: int = 0) -> Biology[Any]:
+        """Give the biology of an island by name, by its goals in an epoch, as it is while it holds nothing."""
+        return self._biologies(self._past.spec(island, epoch))
 
     def score(self, logged: Logged) -> Evaluation:
         """Grow and score an individual again: among the forms, and with the partners, that it was first scored with."""

@@ -20,6 +20,7 @@ from islands.spec import IslandSpec
 from orchestrator.overrides import apply_overrides
 from orchestrator.steering.command import ISLANDS, RUN, Request
 from orchestrator.steering.restructuring import living_names, restructured
+from orchestrator.steering.shapes import shaped
 from orchestrator.steering.structure import Structure
 
 Arguments = Mapping[str, Any]
@@ -37,8 +38,7 @@ def checked(request: Request, structure: Structure, epoch: int, *, trial: bool =
     epoch
         At whose start it would take effect.
     trial
-        Also build what changed goals make of the islands' kinds, and read and score what is to be inserted: for
-        whoever steers; it may take as long as a scoring takes.
+        Also read and score what is to be inserted: for whoever steers; it takes as long as a scoring takes.
 
     Raises
     ------
@@ -46,6 +46,7 @@ def checked(request: Request, structure: Structure, epoch: int, *, trial: bool =
         When it cannot be meant: an island, a criterion or a channel that is not there, a value out of its bounds, a
         genotype that cannot be read.
     """
+    shaped(request)
     if request.verb in RUN:
         return request
     if request.verb in ISLANDS:
@@ -106,10 +107,11 @@ def _refuse_stranger(verb: str, identity: int, structure: Structure) -> None:
 
 
 def _goals(spec: IslandSpec, verb: str, arguments: Arguments, trial: bool) -> None:
+    del trial
     changed = goals.changed(verb, spec.fitness, arguments["values"], f"steer {verb} on {spec.group}")
-    if trial:
-        fitness = {**spec.fitness, **{name: goal.model_dump(mode="json") for name, goal in changed.items()}}
-        _built(replace(spec, fitness=fitness))
+    fitness = {**spec.fitness, **{name: goal.model_dump(mode="json") for name, goal in changed.items()}}
+    # A kind that cannot be built of them would end the run, and each run that goes on from its history.
+    _built(replace(spec, fitness=fitness))
 
 
 def _rates(spec: IslandSpec, verb: str, arguments: Arguments, trial: bool) -> None:

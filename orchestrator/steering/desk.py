@@ -104,8 +104,6 @@ class Desk:
                 structure = _after(structure, request, epoch)
         except InputError as error:
             reason = str(error)
-        except (KeyError, TypeError, ValueError, AttributeError) as error:  # arguments that no steer command writes
-            reason = f"arguments that '{request.verb}' does not take ({type(error).__name__}: {error})"
         told = (letter.time, request.verb, request.arguments)
         if reason:
             return self._journal.append(*told, None, letter.by, reason, letter.token)

@@ -242,3 +242,33 @@ def test_a_new_island_is_like_a_group_but_for_what_is_set(structure) -> None:
         with pytest.raises(InputError) as caught:
             checked(read("add-island", words), structure, 3)
         assert str(caught.value) == message
+
+
+@pytest.mark.parametrize(
+    ("verb", "arguments"),
+    [
+        ("pause", {"now": 1}),
+        ("weight", {"values": {}}),
+        ("weight", {"values": {"ones": "2"}}),
+        ("weight", {"values": {"ones": True}}),
+        ("weight", {"values": {"ones": float("inf")}}),
+        ("weight", {"values": {"ones": float("nan")}}),
+        ("weight", {"values": {"ones": 10**400}}),
+        ("rate", {"values": {"elite": 1}, "more": 1}),
+        ("lock", {}),
+        ("lock", {"id": True}),
+        ("lock", {"id": -1}),
+        ("remove", {"id": 2**63}),
+        ("lock", {"id": 1, "islands": []}),
+        ("lock", {"id": 1, "islands": "north"}),
+        ("insert", {"genotype": [1]}),
+        ("add-island", {"name": "west"}),
+        ("add-island", {"name": "west", "like": "north", "set": [1]}),
+        ("remove-island", {"islands": []}),
+        ("connect", {"channel": "ring"}),
+        ("disconnect", {"channel": {}}),
+    ],
+)
+def test_arguments_of_another_shape_are_refused(structure, verb, arguments) -> None:
+    with pytest.raises(InputError, match=f"^steer {verb}: expected"):
+        checked(Request(verb, arguments), structure, 3)
