@@ -133,7 +133,7 @@ class Drive:
         self.latest: tuple[IslandSummary, ...] = ()
         self.evaluations = self.evaluated_before = evaluations_until(folder, before)
         self.stepped_s = 0.0
-        self.round, self.looked = 0, 0.0
+        self.round, self.looked, self.is_paused = 0, 0.0, False
         self.written = len([name for name in folder.log.names("events") if name.startswith("run-")])
 
     @property
@@ -162,15 +162,19 @@ class Drive:
         events: deque[messages.Event] = deque([messages.Begun()])
         told = False
         while True:
-            event = events.popleft() if events else self.backend.wait(POLL_S)
+            if not events:
+                heard = self.backend.wait(POLL_S)
+                events.extend(() if heard is None else (heard,))
             if stop.is_set() and not told:
                 events.append(messages.StopAsked())
                 self.progress.note("stopping: the epoch in hand is given up, the log is written (once more: at once)")
                 told = True
             self.lease.renew()
-            events.extend(self._steered(state))
-            if event is None:
+            # Before all else: what was heard may let hosts begin the epoch in which a command takes effect.
+            events.extendleft(reversed(self._steered(state)))
+            if not events:
                 continue
+            event = events.popleft()
             state, instructions = decide(state, event)
             for instruction in instructions:
                 if isinstance(instruction, messages.Conclude):
@@ -277,7 +281,8 @@ class Drive:
             elif command.verb in STRUCTURE:
                 events.append(messages.RestructureAsked(command.epoch))
             else:
-                if command.verb == "resume":
+                if command.verb == "resume" and self.is_paused:
+                    self.is_paused = False
                     self.folder.update(status="running")
                 events.append(_ASKED[command.verb]())
             self.progress.note(f"steered: {command.verb}, from epoch {command.epoch} on")
@@ -291,6 +296,9 @@ class Drive:
         return f"the run ends with epoch {length}, and no earlier one can still be changed"
 
     def _paused(self, epoch: int) -> None:
+        if self.is_paused:
+            return
+        self.is_paused = True
         self.folder.update(status="paused", **self.facts())
         self.progress.note(f"paused after epoch {epoch}: go on with 'atoll steer RUN resume'")
 
