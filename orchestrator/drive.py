@@ -133,7 +133,8 @@ class Drive:
         self.latest: tuple[IslandSummary, ...] = ()
         self.evaluations = self.evaluated_before = evaluations_until(folder, before)
         self.stepped_s = 0.0
-        self.round, self.looked, self.is_paused = 0, 0.0, False
+        self.round, self.looked = 0, 0.0
+        self.is_begun = self.is_paused = False
         self.written = len([name for name in folder.log.names("events") if name.startswith("run-")])
 
     @property
@@ -148,6 +149,7 @@ class Drive:
         detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
         self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
         self._begin()
+        self.is_begun = True
         self.progress.begin(self.plan, experiment, self.folder.store)
         state = Archipelago(
             self.hosts,

@@ -21,7 +21,7 @@ from orchestrator.backends.protocol import Backend, RunFailedError
 from orchestrator.checkpoints import newest
 from orchestrator.cutting import roll_back
 from orchestrator.drive import Drive, Outcome
-from orchestrator.folder import MANIFEST, RunFolder, Runs, choose_name, create
+from orchestrator.folder import MANIFEST, RunFolder, Runs, choose_name, create, remove
 from orchestrator.keeping import EXPERIMENT, as_yaml
 from orchestrator.lease import Lease
 from orchestrator.loading import Loaded
@@ -229,7 +229,9 @@ def driven(folder: RunFolder, signals: Signals, make: Callable[[Lease], Drive], 
         return drive.to_the_end(signals.stop)
     except BaseException as error:
         signals.close()
-        if drive is not None or fresh:
+        if fresh and isinstance(error, RunFailedError) and drive is not None and not drive.is_begun:
+            remove(folder)
+        elif drive is not None or fresh:
             with contextlib.suppress(StoreError):  # what the run died of may be its store
                 _conclude_badly(folder, drive, error)
         if isinstance(error, StoreError):

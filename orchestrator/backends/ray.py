@@ -34,6 +34,7 @@ from orchestrator.messages import (
     Spawn,
     Steer,
 )
+from orchestrator.preflight import preflight
 
 OBJECT_STORE_BYTES: Final = 100 * 2**20
 
@@ -145,9 +146,18 @@ class RayBackend:
         return self._count
 
     def begin(self, plans: tuple[HostPlan, ...], deadlines: Deadlines) -> None:
-        """Take the plans."""
+        """Take the plans; on a cluster, the first time, ask each of its machines whether it can take part.
+
+        Raises
+        ------
+        RunFailedError
+            When one cannot.
+        """
+        first = not self._plans
         self._plans = plans
         self._deadlines = deadlines
+        if first and self._address is not None:
+            preflight(plans)
 
     def perform(self, instruction: Order) -> None:
         """Submit it; the event comes from ``wait``."""
