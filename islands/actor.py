@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import gc
+import os
+import sys
 from collections.abc import Mapping
 from typing import Any, Final, NamedTuple, final
 
-from islands.host import Advanced, Box, Finished, Host, HostPlan, Step
-from islands.mail import CAN_LISTEN, Letterbox, Line
+from islands.host import Host
+from islands.interventions.intervention import Intervention
+from islands.mail import CAN_LISTEN, Letterbox
+from islands.orders import Advanced, Box, Finished, HostPlan, Saved, Step
 from islands.wire import opened, sealed
 
 CONTROL: Final = "control"
@@ -19,11 +24,22 @@ UNANSWERED: Final = 4
 """Letters to one host that may be on their way under ``async``, where nobody waits for them."""
 
 
+SWITCH_S: Final = 0.1
+"""Python's switch interval in hosts: how long the thread that computes is left alone by others that want the
+interpreter's lock. One of Ray's asks for it a hundred times a second, and each time that it gets it the other loses a
+moment to the change. Who waits for it in earnest, a wish to stop, can wait so long."""
+
+
+COLLECT: Final = (20_000, 20, 20)
+"""The collector's thresholds in hosts: demes and records are made by the thousand, and hardly ever in circles."""
+
+
 class Address(NamedTuple):
-    """Where a host can be reached: its machine, and the path of its letterbox; empty where it has none."""
+    """Where a host can be reached: its machine, the path of its letterbox (empty where it has none), its process."""
 
     machine: str
     letterbox: str
+    process: int = 0
 
 
 @final
@@ -39,61 +55,84 @@ class HostActor:
     """
 
     def __init__(self, plan: HostPlan, mail: str = "") -> None:
+        self._machine = _machine()
+        self._take(plan, mail)
+
+    def _take(self, plan: HostPlan, mail: str) -> None:
         self._plan = plan
-        self._host = Host(plan, post=self._post)
-        self._letterbox = (
-            Letterbox(self.deliver, mail and f"{mail}/{plan.host}") if CAN_LISTEN and plan.hosts > 1 else None
-        )
-        self._address = Address(_machine(), "" if self._letterbox is None else self._letterbox.address)
-        self._lines: dict[int, Line] = {}
+        folder = mail and f"{mail}/{plan.round}-{plan.host}"
+        self._letterbox = Letterbox(folder) if CAN_LISTEN and plan.hosts > 1 else None
+        self._host = Host(plan, post=self._post, porch=self._letterbox)
         self._peers: dict[int, Any] = {}
         self._limited = plan.schedule == "async" and not plan.replay
         self._unanswered: dict[int, list[Any]] = {}
 
     def ready(self) -> Address:
         """Make the islands; see :meth:`Host.ready`. Gives the host's address."""
+        sys.setswitchinterval(SWITCH_S)
         self._host.ready()
-        return self._address
+        # What stands now stands for good: the collector need not look at half a million objects of libraries again.
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(*COLLECT)
+        return Address(self._machine, "" if self._letterbox is None else self._letterbox.address, os.getpid())
+
+    def restart(self, plan: HostPlan, mail: str) -> Address:
+        """Begin anew with another plan, in this process, where all that is imported and compiled is at hand."""
+        gc.unfreeze()
+        if self._letterbox is not None:
+            self._letterbox.close()
+        self._take(plan, mail)
+        return self.ready()
 
     def connect(self, peers: Mapping[int, tuple[Any, Address]]) -> None:
         """Take the other hosts' actors and addresses."""
-        near = 0
+        near: dict[int, str] = {}
         for number, (actor, address) in peers.items():
-            if self._letterbox and address.letterbox and address.machine == self._address.machine:
-                self._lines[number] = Line(address.letterbox, self._plan.patience)
-                near += 1
+            if self._letterbox and address.letterbox and address.machine == self._machine:
+                near[number] = address.letterbox
             else:
                 self._peers[number] = actor.deliver
         if self._letterbox is not None:
-            self._letterbox.expect(near)
+            self._letterbox.connect(near, self._plan.patience)
 
     def advance(self, through: int, horizon: int, settled: int) -> Advanced:
         """Step islands; see :meth:`Host.advance`."""
         return self._host.advance(through, horizon, settled)
 
+    def checkpoint(self, epoch: int) -> Saved:
+        """Write a part of a checkpoint; see :meth:`Host.checkpoint`."""
+        return self._host.checkpoint(epoch)
+
+    def steer(self, epoch: int, intervention: Intervention) -> None:
+        """Take an intervention; see :meth:`Host.steer`."""
+        self._host.steer(epoch, intervention)
+
     def finish(self, forms: bool, settled: int, through: int) -> Finished:
         """Write the rest; see :meth:`Host.finish`."""
         return self._host.finish(forms, settled, through)
 
-    def stop(self) -> None:
-        """Ask for the epoch in hand to be abandoned."""
-        self._host.stop()
+    def stop(self, turn: int) -> None:
+        """Ask for the epoch in hand to be abandoned, unless the host has begun anew since."""
+        if turn == self._plan.round:
+            self._host.stop()
 
     def step(self) -> Step:
         """Give what the host is at."""
         return self._host.step()
 
-    def deliver(self, letter: bytes) -> None:
-        """Take a letter from another host."""
-        self._host.deliver(opened(letter))
+    def deliver(self, letter: bytes, turn: int) -> None:
+        """Take a letter from another host, unless it was sent before all began anew."""
+        if turn == self._plan.round:
+            self._host.deliver(opened(letter))
 
     def _post(self, host: int, packets: Box) -> bool:
         letter = sealed(packets)
-        if host in self._lines:
-            self._lines[host].send(letter)
+        if self._letterbox is not None and self._letterbox.reaches(host):
+            self._letterbox.send(host, letter)
             return True
         if not self._limited:
-            self._peers[host].options(num_returns=0, concurrency_group=MAIL).remote(letter)
+            self._peers[host].options(num_returns=0, concurrency_group=MAIL).remote(letter, self._plan.round)
             return True
         return self._post_limited(host, letter)
 
@@ -107,7 +146,7 @@ class HostActor:
         if len(waiting) >= UNANSWERED:
             self._unanswered[host] = waiting
             return False
-        answer = self._peers[host].options(concurrency_group=MAIL).remote(letter)
+        answer = self._peers[host].options(concurrency_group=MAIL).remote(letter, self._plan.round)
         self._unanswered[host] = [*waiting, answer]
         return True
 

@@ -15,7 +15,7 @@ let those go ahead that other hosts wait for (:func:`ranks`).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import heappop, heappush
 from typing import Final, Protocol, final
 
@@ -120,8 +120,8 @@ class _Place:
 
     __slots__ = ("box", "epoch", "had", "lacks")
 
-    def __init__(self) -> None:
-        self.epoch = 0
+    def __init__(self, epoch: int) -> None:
+        self.epoch = epoch
         self.box: dict[Mark, Packet] = {}
         self.lacks: set[Mark] = set()
         self.had: dict[int, set[Mark]] = {}
@@ -141,17 +141,21 @@ class Agenda:
         Which packets they wait for and take in.
     ranks
         For islands that may lag behind, by how many epochs.
+    finished
+        The epoch that all of them have finished before, as when they go on from a checkpoint.
     """
 
-    def __init__(self, islands: Iterable[int], rule: Rule, ranks: Mapping[int, int] | None = None) -> None:
+    def __init__(
+        self, islands: Iterable[int], rule: Rule, ranks: Mapping[int, int] | None = None, finished: int = -1
+    ) -> None:
         self._rule = rule
         self._ranks = ranks or {}
         self._parked: list[tuple[int, int, int]] = []
         self._horizon = -1
-        self._places = {island: _Place() for island in islands}
+        self._places = {island: _Place(finished + 1) for island in islands}
         self._ready: list[tuple[int, int, int]] = []
         self._finished: dict[int, int] = {}
-        self._floor = -1
+        self._floor = finished
         for island in self._places:
             self._await(island)
 
@@ -212,6 +216,10 @@ class Agenda:
             self._floor += 1
             del self._finished[self._floor]
         self._await(island)
+
+    def present(self) -> Iterator[Packet]:
+        """Give the packets that are in and not taken yet."""
+        return (packet for place in self._places.values() for packet in place.box.values())
 
     def awaited(self) -> tuple[int, int, tuple[Mark, ...]] | None:
         """Give, of the islands that wait, the one of the lowest epoch, that epoch, and what it lacks, in order."""

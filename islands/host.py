@@ -12,149 +12,53 @@ import threading
 import time
 from collections import defaultdict, deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import Any, Final, Literal, NamedTuple, final
+from typing import Any, Final, final
 
 from genome.errors import InputError
 from growth.protocol import Clock
 from islands.agenda import Agenda, Complete, Present, Recorded, Rule, ranks
 from islands.arrivals import arrivals_detail, recorded_arrivals
+from islands.checkpoint import Kept, read_parts, write_part
 from islands.forms import best_forms, write_forms
 from islands.inputs import inputs_here
+from islands.interventions.intervention import Intervention
 from islands.island import Island
 from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
+from islands.mail import Bell, Porch
 from islands.migration.adapters import adapters_into
-from islands.migration.channel import Edge, Packet
-from islands.migration.routes import Redrawn, Routes
+from islands.migration.channel import Packet
+from islands.migration.routes import Routes
+from islands.orders import (
+    Advanced,
+    Box,
+    Finished,
+    HostPlan,
+    Post,
+    Saved,
+    Start,
+    StarvedError,
+    Step,
+    StoppedError,
+)
 from islands.spec import IslandSpec
 from islands.state import Advance, State
 from islands.store import Store
-from islands.tally import IslandSummary, Tally
-
-Schedule = Literal["barrier", "dataflow", "async"]
-Box = tuple[Packet, ...]
-"""What one host sends to another at a time."""
-
-Post = Callable[[int, Box], bool]
-"""Hands packets to another host; ``False`` when so many are on their way to it that these have to wait."""
+from islands.tally import Tally
+from islands.transit import Transit, lacking
+from islands.wire import opened
 
 THREAD_VARIABLES: Final = (
     "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "NUMBA_NUM_THREADS",
     "VECLIB_MAXIMUM_THREADS",
 )  # fmt: skip
 
-POST_S: Final = 0.005
-"""Packets are gathered for so long, as long as an island of the host can step."""
+POST_S: Final = 0.001
+"""Packets are gathered for so long, as long as an island of the host can step and lags behind its others."""
 
 MOST_NAMED: Final = 3
 """Packets that are named when a host has waited in vain."""
-
-
-@dataclass(frozen=True, slots=True)
-class HostPlan:
-    """What one host is to do.
-
-    Attributes
-    ----------
-    host, hosts
-        Its number, and how many there are.
-    run, seed
-        The run's name and seed.
-    folder
-        The run's folder: the place of a store.
-    islands
-        Its islands, in order.
-    edges
-        Every edge that begins or ends at one of them, in the order of channels, then sources.
-    placement
-        For each island of the run, by number, the host that holds it.
-    generations
-        Generations of an epoch.
-    flush_epochs
-        The log is written every so many epochs.
-    best_forms
-        How many different forms of each island are written at the end.
-    epochs
-        Epochs of the run; what islands send at the end of the last is for nobody.
-    redrawn
-        Channels whose edges are drawn anew for each epoch.
-    foreign
-        Islands of other hosts that adapters have to know.
-    schedule
-        Which packets islands wait for.
-    replay
-        The ``log`` folder of a run whose arrivals are to be repeated; empty for none.
-    patience
-        Seconds without any packet after which a host that waits gives up.
-    """
-
-    host: int
-    hosts: int
-    run: str
-    seed: int
-    folder: str
-    islands: tuple[IslandSpec, ...]
-    edges: tuple[Edge, ...]
-    placement: tuple[int, ...]
-    generations: int
-    flush_epochs: int
-    best_forms: int
-    epochs: int | None = None
-    redrawn: tuple[Redrawn, ...] = ()
-    foreign: tuple[IslandSpec, ...] = ()
-    schedule: Schedule = "barrier"
-    replay: str = ""
-    patience: float = 600.0
-
-
-class Advanced(NamedTuple):
-    """How far a host has come.
-
-    Attributes
-    ----------
-    epoch
-        The last epoch that all of its islands have finished; -1 for none.
-    summaries
-        How they stood at its end, counting from the call before; empty when there is trouble.
-    busy_s, waited_s
-        Seconds spent on stepping islands, and on waiting for packets.
-    trouble
-        Why it broke off; empty when it did not.
-    stopped
-        Whether it broke off because it was asked to.
-    """
-
-    epoch: int
-    summaries: tuple[IslandSummary, ...]
-    busy_s: float
-    waited_s: float
-    trouble: str = ""
-    stopped: bool = False
-
-
-class Step(NamedTuple):
-    """What a host is at: which island, which epoch, for how many seconds; an empty name while it waits."""
-
-    island: str
-    epoch: int
-    seconds: float
-
-
-class Finished(NamedTuple):
-    """What a host left behind: the names of its forms, and how its islands stood at the end of the log."""
-
-    forms: tuple[str, ...]
-    summaries: tuple[IslandSummary, ...]
-
-
-class StoppedError(Exception):
-    """The run was asked to stop: the epoch in hand is abandoned, the states are those of its beginning."""
-
-
-class StarvedError(Exception):
-    """The host waited in vain for packets of other hosts."""
 
 
 def _nowhere(host: int, packets: Box) -> bool:
@@ -175,6 +79,8 @@ class Host:
         For the log's events.
     post
         Hands packets to other hosts.
+    porch
+        Where letters of other hosts come in.
     """
 
     def __init__(
@@ -183,12 +89,13 @@ class Host:
         clock: Clock = time.perf_counter,
         calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
         post: Post = _nowhere,
+        porch: Porch | None = None,
     ) -> None:
         self._plan = plan
         self._clock = clock
         self._post = post
         self._stop = threading.Event()
-        self._bell = threading.Condition()
+        self._porch: Porch = porch or Bell()
         self._mail: deque[Box] = deque()
         self._islands: dict[int, Island[Any]] = {}
         self._states: dict[int, State[Any]] = {}
@@ -202,7 +109,12 @@ class Host:
         self._routes = Routes(plan.edges, plan.redrawn, plan.seed)
         self._agenda = Agenda((), Present())
         self._tally = Tally(plan.islands)
-        self._log = LogWriter(Store.open(plan.folder).at("log"), plan.run, plan.islands, calendar)
+        log, begun = Store.open(plan.folder).at("log"), plan.start is not None
+        self._log = LogWriter(log, plan.run, plan.islands, calendar, begun=begun)
+        self._transit = Transit()
+        self._interventions: dict[int, list[Intervention]] = defaultdict(list)
+        for epoch, one in plan.interventions:
+            self._interventions[epoch].append(one)
 
     def ready(self) -> int:
         """Make the islands; to be called once, before all else. Gives the host's number.
@@ -210,7 +122,8 @@ class Host:
         Raises
         ------
         InputError
-            When an island's settings do not hold together here: a file or plug-in that this machine lacks.
+            When an island's settings do not hold together here: a file or plug-in that this machine lacks; or when the
+            checkpoint that it goes on from is damaged.
         """
         pin_threads()
         self._log.warm()
@@ -218,8 +131,24 @@ class Host:
             self._islands = self._made(plan)
         # Where nobody waits, nobody is to be kept supplied.
         order = {} if plan.schedule != "dataflow" else ranks(plan.placement, plan.host, plan.edges)
-        self._agenda = Agenda(self._islands, self._rule(), order)
+        finished = -1 if plan.start is None else plan.start.epoch
+        self._agenda = Agenda(self._islands, self._rule(), order, finished)
+        if plan.start is not None:
+            self._restore(plan.start)
         return plan.host
+
+    def _restore(self, start: Start) -> None:
+        """Go on from a checkpoint."""
+        known = {number for part in start.parts for number in part.islands}
+        here = [island for number, island in self._islands.items() if number in known]
+        restored = read_parts(Store.open(self._plan.folder), start.parts, here)
+        self._flushed = self._told = start.epoch
+        self._states = {number: one.state for number, one in restored.items()}
+        self._history = {start.epoch: dict(self._states)}
+        self._tally.restore({number: one.champion for number, one in restored.items()})
+        for one in restored.values():
+            for packet in one.pending:
+                self._agenda.put(packet)
 
     def _made(self, plan: HostPlan) -> dict[int, Island[Any]]:
         # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
@@ -254,8 +183,7 @@ class Host:
     def stop(self) -> None:
         """Ask for the epoch in hand to be abandoned."""
         self._stop.set()
-        with self._bell:
-            self._bell.notify_all()
+        self._porch.ring()
 
     def step(self) -> Step:
         """Give what the host is at."""
@@ -267,8 +195,7 @@ class Host:
     def deliver(self, packets: Box) -> None:
         """Take packets from another host."""
         self._mail.append(packets)
-        with self._bell:
-            self._bell.notify_all()
+        self._porch.ring()
 
     # -- stepping ------------------------------------------------------------------------------------------------
 
@@ -315,20 +242,26 @@ class Host:
                 self._send()
                 self._wait()
                 continue
-            started = self._clock()
+            started, floor = self._clock(), self._agenda.floor
             self._turn = (*turn, started)
             self._take_turn(*turn)
             self._turn, ended = None, self._clock()
             self._busy += ended - started
-            if ended - self._posted > POST_S:
+            if ended - self._posted > POST_S or self._agenda.floor > floor:
                 self._send()
         self._send()
+        self._see_off()
 
     def _take_turn(self, number: int, epoch: int) -> None:
         """Step one island and pass on what it sends."""
         island, packets = self._islands[number], self._agenda.take(number)
+        self._transit.take(epoch, packets)
         step: Advance[Any]
-        step = island.begin() if epoch == 0 else island.advance(self._states[number], self._plan.generations, packets)
+        if number in self._states:
+            asked = self._interventions.get(epoch, ())
+            step = island.advance(self._states[number], self._plan.generations, packets, asked)
+        else:
+            step = island.begin(epoch)
         self._states[number] = step.state
         self._history.setdefault(epoch, {})[number] = step.state
         self._tally.add(number, step)
@@ -337,17 +270,18 @@ class Host:
             edges = self._routes.incoming(number, epoch - 1)
             self._log.tell(number, epoch, "arrivals", arrivals_detail(packets, edges, epoch - 1))
         self._agenda.done(number)
-        if epoch == self._plan.epochs:
-            return
         placement, here = self._plan.placement, self._plan.host
         for packet in step.departures:
             host = placement[packet.target]
             if host == here:
                 self._agenda.put(packet)
-            else:
+            elif host >= 0:
                 self._gathered.setdefault(host, []).append(packet)
 
     def _collect(self) -> None:
+        for letter in self._porch.letters():
+            for packet in opened(letter):
+                self._agenda.put(packet)
         while self._mail:
             for packet in self._mail.popleft():
                 self._agenda.put(packet)
@@ -362,11 +296,19 @@ class Host:
     def _wait(self) -> None:
         """Wait for packets, or for the wish to stop."""
         started = self._clock()
-        with self._bell:
-            heard = self._bell.wait_for(lambda: self._mail or self._stop.is_set(), self._plan.patience)
+        heard = self._mail or self._stop.is_set() or self._porch.wait(self._plan.patience)
         self._waited += self._clock() - started
         if not heard:
             raise StarvedError(self._lacking())
+
+    def _see_off(self) -> None:
+        """Wait until all that was posted has gone out: who hears that an epoch is done has its packets to hand."""
+        started = self._clock()
+        while self._porch.owing:
+            if not self._porch.wait(self._plan.patience):
+                raise StarvedError(f"waited {self._plan.patience:g} s for a host that takes no letters")
+            self._collect()
+        self._waited += self._clock() - started
 
     def _lacking(self) -> str:
         """Say what the host has waited for in vain."""
@@ -388,6 +330,8 @@ class Host:
     def _pulse(self) -> None:
         if self._stop.is_set():
             raise StoppedError
+        if self._porch.owing:
+            self._collect()
 
     # -- writing -------------------------------------------------------------------------------------------------
 
@@ -399,7 +343,43 @@ class Host:
             self._flushed = epoch
         for epoch in [epoch for epoch in self._history if epoch < settled]:
             del self._history[epoch]
+        for epoch in [epoch for epoch in self._interventions if epoch < settled]:
+            del self._interventions[epoch]
         self._tally.forget(settled)
+        self._transit.forget(settled)
+
+    def steer(self, epoch: int, intervention: Intervention) -> None:
+        """Take an intervention; no island has begun the epoch in which it takes effect."""
+        self._interventions[epoch].append(intervention)
+
+    def checkpoint(self, epoch: int) -> Saved:
+        """Write this host's part of the checkpoint of an epoch that all hosts have finished, and the log up to it.
+
+        Raises
+        ------
+        StarvedError
+            When packets that other hosts sent by then do not come.
+        """
+        while any(self._gathered.values()):
+            self._send()
+        self._see_off()
+        pending = self._pending(epoch)
+        while lacking(self._routes, epoch, pending):
+            if not self._porch.wait(self._plan.patience):
+                raise StarvedError(f"waited {self._plan.patience:g} s for packets of epoch {epoch}")
+            pending = self._pending(epoch)
+        self._log.flush(epoch)
+        self._flushed = max(self._flushed, epoch)
+        champions, states = self._tally.champions(epoch), self._history[epoch]
+        kept = [
+            Kept(island, states[number], pending[number], champions[number]) for number, island in self._islands.items()
+        ]
+        part = write_part(Store.open(self._plan.folder), epoch, self._plan.host, kept)
+        return Saved(part, self._log.files)
+
+    def _pending(self, epoch: int) -> dict[int, tuple[Packet, ...]]:
+        self._collect()
+        return self._transit.pending(epoch, self._islands, self._agenda.present())
 
     def finish(self, forms: bool, settled: int, through: int) -> Finished:
         """Write what is left of the log up to an epoch and drop the rest; write the best forms, if asked.
@@ -419,8 +399,8 @@ class Host:
         files: list[str] = []
         if forms and states:
             folder = Store.open(self._plan.folder).at("forms")
-            for number, island in self._islands.items():
-                files.extend(self._write_forms(island, states[number], folder))
+            for number, state in states.items():
+                files.extend(self._write_forms(self._islands[number], state, folder))
             self._log.flush()
         return Finished(tuple(files), self._tally.since(settled, through) if through > settled else ())
 

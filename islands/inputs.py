@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final
 from islands.store import Store
 
 if TYPE_CHECKING:
-    from islands.host import HostPlan
+    from islands.orders import HostPlan
 
 MADE: Final = ("checkpoints", "forms", "log")
 """The folders of a run that it makes itself; the others hold what the experiment names."""

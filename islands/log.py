@@ -8,7 +8,8 @@ names.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from datetime import datetime
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
@@ -17,7 +18,7 @@ from genome.mishaps import plain
 from islands.records import Records
 from islands.schemas import TABLES, schema, stored
 from islands.spec import IslandSpec
-from islands.store import Anywhere, Store
+from islands.store import Anywhere, Store, StoreError
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -40,6 +41,13 @@ class Event(NamedTuple):
     detail: dict[str, Any]
 
 
+class LogFile(NamedTuple):
+    """A file that was written: its name in the ``log`` folder, and its size in bytes."""
+
+    name: str
+    bytes: int
+
+
 @final
 class LogWriter:
     """Buffers the records of some islands and writes them.
@@ -54,16 +62,26 @@ class LogWriter:
         The islands whose records will come; their numbers are in the files' names.
     calendar
         Stamps events.
+    begun
+        Whether each table has a file already, as in a run that goes on from a checkpoint.
     """
 
-    def __init__(self, folder: Anywhere, run: str, islands: Sequence[IslandSpec], calendar: Calendar) -> None:
+    def __init__(
+        self, folder: Anywhere, run: str, islands: Sequence[IslandSpec], calendar: Calendar, *, begun: bool = False
+    ) -> None:
         self._folder = Store.open(folder)
         self._run = run
         self._islands = {spec.number: spec for spec in islands}
         self._calendar = calendar
         self._buffer: list[tuple[int, int, Records]] = []
         self._events: list[Event] = []
-        self._begun = False
+        self._files: list[LogFile] = []
+        self._begun = begun
+
+    @property
+    def files(self) -> tuple[LogFile, ...]:
+        """What it has written, in order."""
+        return tuple(self._files)
 
     def add(self, island: int, epoch: int, records: Records) -> None:
         """Take the records of one island in one epoch."""
@@ -96,21 +114,46 @@ class LogWriter:
         epochs = [epoch for epoch, _, _ in parts] or [event.epoch or 0 for event in events]
         span = f"e{min(epochs):06d}-{max(epochs):06d}-i{min(self._islands):05d}-{max(self._islands):05d}"
         if not parts:
-            span = f"{span}-after"
+            span = self._free(f"{span}-after")
         tables = {name: self._table(name, parts) for name in TABLES if name != "events"}
         tables["events"] = events_table(self._run, events)
         wanted = {name: table for name, table in tables.items() if table.num_rows or not self._begun}
-        files = [write(self._folder, name, span, table) for name, table in wanted.items()]
+        files = self._written(span, wanted)
         self._buffer = [part for part in self._buffer if part[0] > through]
         self._events = [event for event in self._events if (event.epoch or 0) > through]
+        self._files.extend(files)
         self._begun = True
+        return [file.name for file in files]
+
+    def _free(self, span: str) -> str:
+        """Give the span, or with a number after it where a file of events has it: one that a checkpoint may list."""
+        found, number = span, 2
+        while self._folder.exists(f"events/{found}.parquet"):
+            found, number = f"{span}-{number}", number + 1
+        return found
+
+    def _written(self, span: str, tables: Mapping[str, pa.Table]) -> list[LogFile]:
+        """Write the files of one span, all or none: what is written later may cover its epochs under another name."""
+        files: list[LogFile] = []
+        try:
+            for name, table in tables.items():
+                files.append(write(self._folder, name, span, table))
+        except BaseException:
+            for file in files:
+                with suppress(StoreError):
+                    self._folder.remove(file.name)
+            raise
         return files
 
     def warm(self) -> None:
-        """Import what writing needs, so that no epoch has to wait for it."""
+        """Import what writing needs, so that no epoch has to wait for it: some of it comes with the first table."""
         import pyarrow.parquet as pq
 
         del pq
+        for name in TABLES:
+            if name != "events":
+                self._table(name, ())
+        events_table(self._run, ())
 
     def drop(self) -> None:
         """Forget what is buffered."""
@@ -131,8 +174,8 @@ class LogWriter:
         return make(self._run, rows, specs)
 
 
-def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> str:
-    """Write one Parquet file whole or not at all; give its name in the log's folder."""
+def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> LogFile:
+    """Write one Parquet file whole or not at all; give its name in the log's folder, and its size."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -140,8 +183,9 @@ def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> str:
     content = pa.BufferOutputStream()
     pq.write_table(table, content, compression="zstd", use_dictionary=dictionary, use_byte_stream_split=split)
     name = f"{table_name}/{stem}.parquet"
-    Store.open(folder).write(name, content.getvalue().to_pybytes(), staging=".tmp")
-    return name
+    written = content.getvalue().to_pybytes()
+    Store.open(folder).write(name, written, staging=".tmp")
+    return LogFile(name, len(written))
 
 
 def events_table(run: str, events: Sequence[Event]) -> pa.Table:

@@ -134,6 +134,10 @@ class Store(ABC):
         """Give the names of the folders right below a folder, without hidden ones, as :meth:`names`."""
 
     @abstractmethod
+    def sizes(self, folder: str = "") -> dict[str, int]:
+        """Give the files right below a folder as :meth:`names`, each with its length in bytes, at one request."""
+
+    @abstractmethod
     def remove(self, name: str) -> None:
         """Remove a file, if it is there."""
 

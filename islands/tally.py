@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
@@ -14,6 +14,9 @@ from islands.state import Advance
 
 MOST_REASON: Final = 160
 """Characters of the reason that a summary gives."""
+
+Champion = tuple[float, int]
+"""Fitness and id of the best individual that an island ever bred, member still or not; of equal ones the older."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +32,7 @@ class IslandSummary:
     best, mean, invalid
         Figures of its members.
     champion
-        Fitness and id of the best individual that it ever bred, member still or not; of equal ones the older.
+        See :data:`Champion`; ``None`` while it bred none that is valid.
     trouble
         The commonest reason why its members are invalid, when all are; otherwise empty.
     """
@@ -42,7 +45,7 @@ class IslandSummary:
     mean: float | None
     invalid: int
     migrants: int
-    champion: tuple[float, int] | None
+    champion: Champion | None
     trouble: str = ""
 
 
@@ -58,7 +61,7 @@ class Tally:
 
     def __init__(self, islands: Iterable[IslandSpec]) -> None:
         self._names = {spec.number: spec.name for spec in islands}
-        self._champions: dict[int, tuple[float, int]] = {}
+        self._champions: dict[int, Champion] = {}
         self._epochs: dict[int, dict[int, IslandSummary]] = {}
 
     def add(self, island: int, step: Advance[Any]) -> None:
@@ -96,6 +99,14 @@ class Tally:
             migrants = sum(span[island].migrants for span in spans)
             found.append(replace(row, evaluations=evaluations, migrants=migrants))
         return tuple(found)
+
+    def champions(self, epoch: int) -> dict[int, Champion | None]:
+        """Give each island's champion at the end of an epoch that all have finished and nobody has forgotten."""
+        return {island: self._epochs[epoch][island].champion for island in self._names}
+
+    def restore(self, champions: Mapping[int, Champion | None]) -> None:
+        """Begin with the champions of epochs before; to be called before all else."""
+        self._champions.update((island, one) for island, one in champions.items() if one is not None)
 
     def forget(self, before: int) -> None:
         """Forget epochs before this one."""

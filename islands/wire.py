@@ -12,10 +12,18 @@ from typing import Any
 
 from islands.migration.channel import Migrant, Packet
 
+Bundle = list[Any]
+"""Packets of the same migrants: channel, source, list of targets, epoch, scoring, migrants."""
+
 
 def sealed(packets: Iterable[Packet]) -> bytes:
     """Write packets into a letter."""
-    bundles: dict[tuple[int, int, int, str, int], list[Any]] = {}
+    return written(bundled(packets))
+
+
+def bundled(packets: Iterable[Packet]) -> list[Bundle]:
+    """Put packets together that hold the very same migrants, in the order in which they come."""
+    bundles: dict[tuple[int, int, int, str, int], Bundle] = {}
     for packet in packets:
         channel, source, target, epoch, scoring, migrants = packet
         key = (channel, source, epoch, scoring, id(migrants))
@@ -24,7 +32,12 @@ def sealed(packets: Iterable[Packet]) -> bytes:
             bundles[key] = [channel, source, [target], epoch, scoring, migrants]
         else:
             bundle[2].append(target)
-    return json.dumps(list(bundles.values()), separators=(",", ":")).encode("ascii")
+    return list(bundles.values())
+
+
+def written(bundles: Iterable[Bundle]) -> bytes:
+    """Write bundles into a letter."""
+    return json.dumps(list(bundles), separators=(",", ":")).encode("ascii")
 
 
 def opened(letter: bytes) -> tuple[Packet, ...]:

@@ -35,6 +35,11 @@ class Inputs:
         self._store = store
         self._here = here
 
+    def forget(self) -> None:
+        """Bring them again when they are next asked for, where they stand elsewhere."""
+        if self._store.local is None:
+            self._here = None
+
     def here(self) -> Path:
         """Give the folder that has them.
 

@@ -11,6 +11,7 @@ from genome.errors import InputError
 
 COMMANDS: Final = {
     "run": "Run an experiment.",
+    "resume": "Go on with a run from its last checkpoint.",
     "grow": "Grow one form, without evolution.",
     "check": "Validate a file without running it.",
     "validate": "Reproduce published behaviour of island models.",

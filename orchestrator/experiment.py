@@ -48,10 +48,15 @@ class LogSettings(Settings):
 
 
 class CheckpointSettings(Settings):
-    """How often a checkpoint is made, in epochs, and how many are kept. Checkpoints are not built yet."""
+    """How often a checkpoint is made, in epochs, and how many are kept.
+
+    ``spacing``: no sooner after the last one than after so many seconds, as far as that can be foreseen, so that
+    epochs of milliseconds do not go into checkpoints.
+    """
 
     every: Count = 4
     keep: Count = 2
+    spacing: Annotated[float, Field(ge=0, le=1e7)] = 1.0
 
 
 class FormSettings(Settings):
@@ -64,12 +69,14 @@ class DeadlineSettings(Settings):
     """How long the driver waits, in seconds, before it gives a host up.
 
     ``epoch`` is for one epoch; unset, it is the number of evaluations in a host's epoch times the longest that one may
-    take, and at least 600 s.
+    take, and at least 600 s. ``silence``: a host whose process answers nothing for so long, while it computes too, is
+    taken for lost.
     """
 
     start: Seconds = 120.0
     epoch: Seconds | None = None
     finish: Seconds = 120.0
+    silence: Seconds = 60.0
 
 
 class Experiment(Settings):

@@ -98,6 +98,10 @@ class RunFolder:
             raise InputError(place, "a run's manifest, a JSON object", type(found).__name__)
         return found
 
+    def refresh(self) -> None:
+        """Forget what was brought to this machine: the experiment has changed."""
+        self.inputs.forget()
+
     def update(self, **changes: Any) -> None:  # noqa: ANN401 - plain JSON values
         """Change keys of the manifest, atomically."""
         self.store.write(MANIFEST, _as_json({**self.manifest(), **changes}))

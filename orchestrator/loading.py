@@ -54,7 +54,7 @@ class Loaded:
         return self.experiment.model_dump(mode="json", by_alias=True, exclude_none=True)
 
 
-def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
+def load_experiment(path: Path, overrides: Sequence[str] = (), without: Sequence[str] = ()) -> Loaded:
     """Read and resolve an experiment.
 
     Parameters
@@ -63,6 +63,8 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
         The YAML file.
     overrides
         ``key.path=value``, as ``--set`` takes them.
+    without
+        Keys of the file that give way to them.
 
     Raises
     ------
@@ -79,12 +81,12 @@ def load_experiment(path: Path, overrides: Sequence[str] = ()) -> Loaded:
         return located(error, source, document.line_of, overrides)
 
     try:
-        changed = apply_overrides(data, overrides)
+        kept = {key: value for key, value in data.items() if key not in without}
+        changed = apply_overrides(kept, overrides)
         changed.setdefault("name", re.sub(r"[^A-Za-z0-9_-]+", "-", path.name.split(".")[0]).strip("-_") or "run")
-        notes = ["checkpoint: accepted, but this version writes no checkpoints yet"] if "checkpoint" in changed else []
         experiment = resolved(changed, source)
-        notes.extend((*lonely(experiment, source), *idle(experiment, source)))
-        return Loaded(experiment, source, path.resolve().parent, tuple(notes), locate)
+        notes = (*lonely(experiment, source), *idle(experiment, source))
+        return Loaded(experiment, source, path.resolve().parent, notes, locate)
     except InputError as error:
         raise locate(error) from None
 

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from genome.errors import InputError
-from islands.host import HostPlan
 from islands.migration.channel import Edge
 from islands.migration.routes import Redrawn
+from islands.orders import HostPlan
 from islands.spec import IslandSpec
 from islands.store import Anywhere, Store
 from orchestrator.loading import Loaded
 from orchestrator.wiring import wire
+
+NOWHERE: Final = -1
+"""In place of a host, for islands that are not there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +45,14 @@ def make_plan(loaded: Loaded) -> Plan:
     return Plan(islands, edges, tuple(one.redrawn for one in wired if one.redrawn is not None))
 
 
-def host_plans(loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Anywhere) -> tuple[HostPlan, ...]:
-    """Share the islands out among hosts, in blocks of neighbours as equal as can be."""
+def host_plans(
+    loaded: Loaded, plan: Plan, hosts: int, run: str, folder: Anywhere, epoch: int = 0
+) -> tuple[HostPlan, ...]:
+    """Share the islands that are there in an epoch out among hosts, in blocks of neighbours as equal as can be."""
     place = Store.open(folder).place
-    count = len(plan.islands)
-    placement = tuple(island * hosts // count for island in range(count))
+    living = [spec.number for spec in plan.islands if spec.is_there(epoch)]
+    homes = {number: turn * hosts // len(living) for turn, number in enumerate(living)}
+    placement = tuple(homes.get(spec.number, NOWHERE) for spec in plan.islands)
     plans = []
     for host in range(hosts):
         here = tuple(spec for spec in plan.islands if placement[spec.number] == host)

@@ -17,6 +17,8 @@ from genome.errors import InputError
 from genome.mishaps import one_line
 from islands.schemas import TABLES, schema
 from islands.store import Anywhere, Store
+from islands.stores.troubles import AWS
+from islands.stores.troubles import told as unreached
 
 if TYPE_CHECKING:
     import duckdb
@@ -101,7 +103,7 @@ def ask(log: Anywhere, sql: str) -> Answer:
             names = unique([str(column[0]) for column in result.description or ()])
             return Answer(names, result.fetchall())
         except (duckdb.Error, UnicodeError) as error:
-            raise _not_understood(error) from None
+            raise _not_understood(error, log) from None
 
 
 def write_parquet(log: Anywhere, sql: str, path: Path) -> None:
@@ -120,7 +122,7 @@ def write_parquet(log: Anywhere, sql: str, path: Path) -> None:
             _check(connection, sql)
             table = connection.sql(sql).to_arrow_table()
         except (duckdb.Error, UnicodeError) as error:
-            raise _not_understood(error) from None
+            raise _not_understood(error, log) from None
     pq.write_table(table.rename_columns(list(unique(table.column_names))), path, compression="zstd")
 
 
@@ -150,7 +152,10 @@ def unique(names: Sequence[str]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _not_understood(error: Exception) -> InputError:
+def _not_understood(error: Exception, log: Anywhere) -> InputError:
+    # DuckDB wraps what Arrow says of a store that does not answer.
+    if found := AWS.search(str(error)):
+        return unreached(str(Store.open(log)), "a log that can be read", OSError(found.group()))
     return InputError("SQL", "a query that DuckDB can answer", _told(error), f"tables: {', '.join(TABLES)}")
 
 

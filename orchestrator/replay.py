@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from genome.errors import InputError
+from orchestrator.drive import Outcome
 from orchestrator.folder import LONGEST_NAME, RunFolder, Runs
 from orchestrator.loading import load_experiment
 from orchestrator.progress import Progress
 from orchestrator.query import ask
-from orchestrator.run import Outcome, make_backend, run_experiment
+from orchestrator.run import make_backend, run_experiment
 
 OVER = ("finished", "stopped")
 MARK = "-replay"

@@ -128,6 +128,10 @@ class RemoteStore(Store):
         """Give the names of the folders right below a folder."""
         return sorted(info.base_name for info in self._entries(folder) if not info.is_file)
 
+    def sizes(self, folder: str = "") -> dict[str, int]:
+        """Give the files right below a folder, with their lengths."""
+        return dict(sorted((info.base_name, int(info.size)) for info in self._entries(folder) if info.is_file))
+
     def remove(self, name: str) -> None:
         """Remove a file, if it is there."""
         try:

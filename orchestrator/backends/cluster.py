@@ -79,12 +79,29 @@ def settle_environment(*, local: bool) -> None:
         settings |= dict.fromkeys(THREAD_VARIABLES, "1")
         # Hosts are the run's work, not something behind it.
         settings["RAY_worker_niceness"] = "0"
+        # Nobody looks at the tables of tasks and metrics of a Ray that goes with the run.
+        settings |= {"RAY_task_events_report_interval_ms": "0", "RAY_enable_metrics_collection": "0"}
         # "No cluster here": all processes of this Ray then listen on loopback only, on Linux too.
         settings["RAY_ENABLE_WINDOWS_OR_OSX_CLUSTER"] = "0"
         if not any(name in os.environ for name in ("RAY_AUTH_MODE", "RAY_AUTH_TOKEN", "RAY_AUTH_TOKEN_PATH")):
             settings |= {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32)}
     for name, value in settings.items():
         os.environ.setdefault(name, value)
+
+
+def send_home_helpers() -> None:
+    """End those processes of a local Ray that serve a cluster or a person at its dashboard.
+
+    The autoscaler's monitor, the dashboard and the reader of log files cost seconds of CPU as they start, just when the
+    hosts begin, and some of it for as long as they run. Ray has no setting for them. A Ray that lacks these methods
+    keeps its helpers.
+    """
+    import ray
+
+    node = getattr(ray._private.worker, "_global_node", None)
+    for name in ("kill_monitor", "kill_dashboard", "kill_log_monitor"):
+        with contextlib.suppress(Exception):
+            getattr(node, name)(check_alive=False)
 
 
 def check_address(address: str) -> None:

@@ -6,9 +6,22 @@ from collections import deque
 from typing import final
 
 from genome.errors import InputError
-from islands.host import Host, HostPlan
-from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
+from islands.host import Host
+from islands.orders import HostPlan
 from orchestrator.backends.protocol import Deadlines, Ledger
+from orchestrator.messages import (
+    Advance,
+    AskStop,
+    Event,
+    Finish,
+    HostFailed,
+    HostFinished,
+    HostReady,
+    Order,
+    Save,
+    Spawn,
+    Steer,
+)
 
 
 @final
@@ -34,7 +47,7 @@ class InlineBackend:
         del deadlines
         self._hosts = {plan.host: Host(plan) for plan in plans}
 
-    def perform(self, instruction: Spawn | Advance | AskStop | Finish) -> None:
+    def perform(self, instruction: Order) -> None:
         """Do it now and keep the event for ``wait``."""
         host = instruction.host
         try:
@@ -46,7 +59,7 @@ class InlineBackend:
         if event is not None:
             self._events.append(event)
 
-    def _done(self, instruction: Spawn | Advance | AskStop | Finish) -> Event | None:
+    def _done(self, instruction: Order) -> Event | None:
         match instruction:
             case Spawn(host):
                 self._hosts[host].ready()
@@ -56,9 +69,21 @@ class InlineBackend:
             case AskStop(host):
                 self._hosts[host].stop()
                 return None
+            case Save(host, epoch):
+                return self._ledger.saved(host, epoch, self._hosts[host].checkpoint(epoch))
+            case Steer(host, epoch, intervention):
+                self._hosts[host].steer(epoch, intervention)
+                return None
             case Finish(host, forms, settled, through):
                 self._ledger.note(host, through, self._hosts[host].finish(forms, settled, through).summaries)
                 return HostFinished(host)
+
+    def regroup(self, lost: tuple[int, ...], wanted: int) -> int:
+        """Forget the host: another takes its place."""
+        del lost, wanted
+        self._events.clear()
+        self._ledger.clear()
+        return 1
 
     def wait(self, seconds: float) -> Event | None:
         """Give the oldest event."""

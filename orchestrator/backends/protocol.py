@@ -5,18 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol, final
 
-from islands.host import Advanced, HostPlan
+from islands.orders import Advanced, HostPlan, Saved
 from islands.tally import IslandSummary
-from orchestrator.archipelago import Advance, AskStop, EpochAbandoned, EpochDone, Event, Finish, HostFailed, Spawn
+from orchestrator.messages import Advance, EpochAbandoned, EpochDone, Event, HostFailed, Order, PartSaved
 
 
 @dataclass(frozen=True, slots=True)
 class Deadlines:
-    """Seconds that a host may take to start, for an epoch, and to finish."""
+    """Seconds that a host may take to start, for an epoch, to finish, and to say that it is there."""
 
     start: float
     epoch: float
     finish: float
+    silence: float = 60.0
 
 
 class RunFailedError(Exception):
@@ -40,8 +41,20 @@ class Backend(Protocol):
         """Take the plans of the hosts that will be spawned."""
         ...
 
-    def perform(self, instruction: Spawn | Advance | AskStop | Finish) -> None:
+    def perform(self, instruction: Order) -> None:
         """Do what the archipelago decided."""
+        ...
+
+    def regroup(self, lost: tuple[int, ...], wanted: int) -> int:
+        """Make ready for hosts to be spawned anew with other plans; give how many there will be, at most ``wanted``.
+
+        Those that are lost are ended; the processes of others serve again.
+
+        Raises
+        ------
+        RunFailedError
+            When there is room for none.
+        """
         ...
 
     def wait(self, seconds: float) -> Event | None:
@@ -75,6 +88,7 @@ class Ledger:
     def __init__(self) -> None:
         self.busy_s = 0.0
         self._summaries: dict[tuple[int, int], tuple[IslandSummary, ...]] = {}
+        self._saved: dict[tuple[int, int], Saved] = {}
 
     def advanced(self, call: Advance, found: Advanced) -> Event:
         """Take a host's answer to a call and give the event that it is."""
@@ -95,3 +109,18 @@ class Ledger:
         found = tuple(row for key in sorted(self._summaries) if key[1] == epoch for row in self._summaries[key])
         self._summaries = {key: rows for key, rows in self._summaries.items() if key[1] > epoch}
         return found
+
+    def saved(self, host: int, epoch: int, part: Saved) -> Event:
+        """Take a host's part of a checkpoint and give the event that it is."""
+        self._saved[epoch, host] = part
+        return PartSaved(host, epoch)
+
+    def parts(self, epoch: int) -> tuple[Saved, ...]:
+        """Give the parts of a checkpoint, in the order of hosts; forget them and those before."""
+        found = tuple(self._saved[key] for key in sorted(self._saved) if key[0] == epoch)
+        self._saved = {key: part for key, part in self._saved.items() if key[0] > epoch}
+        return found
+
+    def clear(self) -> None:
+        """Forget what hosts told of epochs: they begin anew."""
+        self._summaries, self._saved = {}, {}

@@ -5,8 +5,11 @@ Hosts know each other's actors and post to each other directly: the driver sees 
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import math
+import os
+import signal
 import tempfile
 import time
 from collections import deque
@@ -14,13 +17,31 @@ from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
 from genome.errors import InputError
-from islands.host import HostPlan, Step
-from orchestrator.archipelago import Advance, AskStop, Event, Finish, HostFailed, HostFinished, HostReady, Spawn
+from islands.orders import HostPlan, Step
 from orchestrator.backends.apart import sessions_of_their_own
-from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, settle_environment
+from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, send_home_helpers, settle_environment
 from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError
+from orchestrator.messages import (
+    Advance,
+    AskStop,
+    Event,
+    Finish,
+    HostFailed,
+    HostFinished,
+    HostReady,
+    Order,
+    Save,
+    Spawn,
+    Steer,
+)
 
 OBJECT_STORE_BYTES: Final = 100 * 2**20
+
+PING_S: Final = 5.0
+"""Seconds between two questions to a busy host whether it is there."""
+
+ROOM_S: Final = 10.0
+"""A CPU of a host that was ended is free again within this time, unless its machine is gone."""
 
 ANSWER_S: Final = 5.0
 """A host that is asked what it is at says so within this time, however busy it is, unless it hangs for good."""
@@ -28,7 +49,7 @@ ANSWER_S: Final = 5.0
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    what: Spawn | Advance | Finish
+    what: Spawn | Advance | Save | Finish
     seconds: float
 
 
@@ -64,6 +85,8 @@ class RayBackend:
         # Where the letterboxes of a local Ray stand: here, so that they go with the driver whatever becomes of hosts.
         self._mail: tempfile.TemporaryDirectory[str] | None = None
         self._connected = False
+        self._pings: dict[int, tuple[float, Any]] = {}
+        self._share = 1.0
         self._events: deque[Event] = deque()
         self._ledger = Ledger()
 
@@ -111,6 +134,8 @@ class RayBackend:
         except Exception as error:  # noqa: BLE001 - Ray's start raises errors of many kinds
             where = "Ray did not start" if self._address is None else f"no Ray cluster at {self._address}"
             raise RunFailedError(f"{where}: {_one_line(error)}") from None
+        if self._address is None:
+            send_home_helpers()
         if self._address is not None:
             resources: Any = ray.available_resources
             self._cpus = math.floor(resources().get("CPU", 0.0))
@@ -124,18 +149,22 @@ class RayBackend:
         self._plans = plans
         self._deadlines = deadlines
 
-    def perform(self, instruction: Spawn | Advance | AskStop | Finish) -> None:
+    def perform(self, instruction: Order) -> None:
         """Submit it; the event comes from ``wait``."""
         match instruction:
             case Spawn(host):
                 from islands.actor import host_actor
 
-                share = math.floor(min(1.0, self._cpus / self._count) * 1e4) / 1e4
+                self._share = math.floor(min(1.0, self._cpus / self._count) * 1e4) / 1e4
                 if self._address is None and self._mail is None:
                     self._mail = tempfile.TemporaryDirectory(prefix="atoll-")
                 mail = "" if self._mail is None else self._mail.name
-                self._actors[host] = host_actor(share).remote(self._plans[host], mail)
-                self._expect(self._actors[host].ready.remote(), instruction, self._deadlines.start)
+                if host in self._actors:
+                    call = self._actors[host].restart.remote(self._plans[host], mail)
+                else:
+                    self._actors[host] = host_actor(self._share).remote(self._plans[host], mail)
+                    call = self._actors[host].ready.remote()
+                self._expect(call, instruction, self._deadlines.start)
             case Advance(host, through, horizon, settled):
                 self._connect()
                 call = self._actors[host].advance.remote(through, horizon, settled)
@@ -143,7 +172,11 @@ class RayBackend:
             case AskStop(host):
                 from islands.actor import CONTROL
 
-                self._actors[host].stop.options(concurrency_group=CONTROL).remote()
+                self._actors[host].stop.options(concurrency_group=CONTROL).remote(self._plans[host].round)
+            case Save(host, epoch):
+                self._expect(self._actors[host].checkpoint.remote(epoch), instruction, self._deadlines.finish)
+            case Steer(host, epoch, intervention):
+                self._actors[host].steer.remote(epoch, intervention)
             case Finish(host, forms, settled, through):
                 call = self._actors[host].finish.remote(forms, settled, through)
                 self._expect(call, instruction, self._deadlines.finish)
@@ -163,7 +196,7 @@ class RayBackend:
         self._told[host] = through
         return self._deadlines.epoch * min(epochs, 2)
 
-    def _expect(self, reference: Any, what: Spawn | Advance | Finish, seconds: float) -> None:  # noqa: ANN401
+    def _expect(self, reference: Any, what: Spawn | Advance | Save | Finish, seconds: float) -> None:  # noqa: ANN401
         if all(pending.what.host != what.host for pending in self._pending.values()):
             self._since[what.host] = time.monotonic()
         self._pending[reference] = _Pending(what, seconds)
@@ -186,9 +219,34 @@ class RayBackend:
             self._since[pending.what.host] = time.monotonic()
             self._events.append(self._answer(reference, pending))
         for host, reference in oldest.items():
-            if reference in self._pending and time.monotonic() > self._since[host] + self._pending[reference].seconds:
-                self._overdue(host, self._pending[reference])
+            if reference in self._pending:
+                if time.monotonic() > self._since[host] + self._pending[reference].seconds:
+                    self._overdue(host, self._pending[reference])
+                elif self._is_silent(host):
+                    text = f"host {host} has answered nothing for {self._deadlines.silence:g} s: it hangs or is gone"
+                    self._give_up(host, text)
         return self._events.popleft() if self._events else None
+
+    def _is_silent(self, host: int) -> bool:
+        """Ask a host now and then whether it is there; tell whether it has not answered for too long."""
+        import ray
+
+        from islands.actor import CONTROL
+
+        now, every = time.monotonic(), min(PING_S, self._deadlines.silence / 4)
+        asked, question = self._pings.get(host, (self._since[host], None))
+        if question is None:
+            if host in self._addresses and now > asked + every:
+                self._pings[host] = (now, self._actors[host].step.options(concurrency_group=CONTROL).remote())
+            return False
+        if ray.wait([question], timeout=0)[0]:
+            self._pings[host] = (now, None)
+            return False
+        return now > asked + self._deadlines.silence
+
+    def _give_up(self, host: int, text: str) -> None:
+        self._pending = {other: one for other, one in self._pending.items() if one.what.host != host}
+        self._events.append(HostFailed(host, text, alive=False))
 
     def _overdue(self, host: int, pending: _Pending) -> None:
         """Give a host up that has not answered in time, unless it is others that it waits for."""
@@ -199,8 +257,7 @@ class RayBackend:
         text = f"host {host} did not {_doing(pending.what)} within {pending.seconds:g} s"
         if step is not None:
             text += f" (it has been in epoch {step.epoch} of island {step.island} for {step.seconds:.1f} s)"
-        self._pending = {other: one for other, one in self._pending.items() if one.what.host != host}
-        self._events.append(HostFailed(host, text, alive=False))
+        self._give_up(host, text)
 
     def _step_of(self, host: int) -> Step | None:
         """Ask a host what it is at; ``None`` when it does not even say that."""
@@ -240,9 +297,57 @@ class RayBackend:
                 if isinstance(event, HostFailed):
                     event = replace(event, reason=f"host {host} could not {_doing(pending.what)}: {event.reason}")
                 return event
+            case Save(_, epoch):
+                return self._ledger.saved(host, epoch, value)
             case Finish():
                 self._ledger.note(host, pending.what.through, value.summaries)
                 return HostFinished(host)
+
+    def regroup(self, lost: tuple[int, ...], wanted: int) -> int:
+        """End the actors that are lost, and give how many hosts there is room for.
+
+        Raises
+        ------
+        RunFailedError
+            When there is room for none.
+        """
+        for host in lost:
+            self._end(host)
+        left = [self._actors[host] for host in sorted(self._actors)]
+        self._actors = dict(enumerate(left[:wanted]))
+        self._pending, self._addresses, self._told, self._since, self._pings = {}, {}, {}, {}, {}
+        self._connected = False
+        self._events.clear()
+        self._ledger.clear()
+        missing = wanted - len(self._actors)
+        fresh = self._room(missing) if missing else 0
+        if not self._actors and not fresh:
+            raise RunFailedError("no host is left, and no CPU is free for another; go on later: atoll resume RUN")
+        return len(self._actors) + fresh
+
+    def _room(self, missing: int) -> int:
+        """Give for how many more hosts there are CPUs, at most so many; what was just freed takes a moment to be so."""
+        import ray
+
+        resources: Any = ray.available_resources
+        ends = time.monotonic() + ROOM_S
+        while True:
+            room = math.floor(resources().get("CPU", 0.0) / self._share + 1e-6)
+            if room >= missing or time.monotonic() > ends:
+                return int(min(room, missing))
+            time.sleep(0.1)
+
+    def _end(self, host: int) -> None:
+        """End a host for good, also one that hangs or was stopped by a signal: it must never write again."""
+        import ray
+
+        actor, address = self._actors.pop(host), self._addresses.get(host)
+        with contextlib.suppress(Exception):
+            ray.kill(actor, no_restart=True)
+        here = ray.get_runtime_context().get_node_id()
+        if address is not None and address.machine == here and address.process:
+            with contextlib.suppress(OSError):
+                os.kill(address.process, signal.SIGKILL)
 
     def interrupt(self) -> None:
         """Nothing: the loop sees the wish to stop within its next wait."""
@@ -261,12 +366,14 @@ class RayBackend:
             self._mail = None
 
 
-def _doing(what: Spawn | Advance | Finish) -> str:
+def _doing(what: Spawn | Advance | Save | Finish) -> str:
     match what:
         case Spawn():
             return "start"
         case Advance(_, through):
             return f"finish epoch {through}"
+        case Save(_, epoch):
+            return f"write its part of the checkpoint of epoch {epoch}"
         case Finish():
             return "write its log"
 

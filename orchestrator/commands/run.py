@@ -15,6 +15,7 @@ from orchestrator.unbroken import Unbroken
 
 if TYPE_CHECKING:
     from islands.store import Store
+    from orchestrator.drive import Outcome
     from orchestrator.folder import Runs
 
 
@@ -77,6 +78,13 @@ def _run(
             outcome = run_experiment(loaded, backend, runs_dir, name, progress)
     except RunFailedError as error:
         raise Complaint(str(error), 1) from None
+    conclude(outcome, as_json=as_json)
+
+
+def conclude(outcome: Outcome, *, as_json: bool) -> None:
+    """Say what came of a run, and exit accordingly."""
+    from orchestrator.cli import Complaint
+
     if as_json:
         emit(
             {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -13,6 +12,7 @@ import islands.actor
 from experiments import bits, run, write
 from islands.actor import UNANSWERED, HostActor
 from islands.migration.channel import Packet
+from islands.wire import opened
 from orchestrator.digest import digest
 from orchestrator.loading import load_experiment
 from orchestrator.plan import host_plans, make_plan
@@ -29,9 +29,9 @@ class Far:
         self.calls.append(given)
         return self
 
-    def remote(self, letter: bytes) -> None:
+    def remote(self, letter: bytes, turn: int) -> None:
         if self.answers:
-            self.actor.deliver(letter)
+            self.actor.deliver(letter, turn)
 
 
 @pytest.fixture
@@ -88,14 +88,10 @@ def test_actors_on_one_machine_write_to_each_other_s_letterboxes(pair, monkeypat
     for number, actor in enumerate(actors):
         actor.connect({1 - number: (far, addresses[1 - number])})
     actors[0]._post(1, (Packet(0, 0, 3, 0, ""),))
-    for _ in range(200):
-        if actors[1]._host._mail:
-            break
-        time.sleep(0.01)
-    assert list(actors[1]._host._mail) == [(Packet(0, 0, 3, 0, ""),)]
+    actors[0]._host._see_off()
+    assert actors[1]._letterbox.wait(10.0)
+    actors[1]._letterbox.wait(0.1)
+    assert [opened(letter) for letter in actors[1]._letterbox.letters()] == [(Packet(0, 0, 3, 0, ""),)]
     assert far.calls == []
     for actor in actors:
-        for line in actor._lines.values():
-            line.close()
-    for actor in actors:
-        actor._letterbox._thread.join(10)
+        actor._letterbox.close()

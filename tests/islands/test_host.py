@@ -5,8 +5,9 @@ from __future__ import annotations
 from archipelagos import island, spec
 
 from islands.forms import best_forms
-from islands.host import Host, HostPlan
+from islands.host import Host
 from islands.individual import Individual
+from islands.orders import HostPlan
 from islands.tally import most_frequent_error
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from archipelagos import LENGTH, edge, island, ring, without_clock
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evaluators.fitness import Goal
@@ -360,6 +360,7 @@ some = st.one_of(
 )  # fmt: skip
 
 
+@settings(deadline=None)
 @given(st.lists(st.lists(some, max_size=4), min_size=2, max_size=4))
 def test_the_same_interventions_give_the_same_result_in_any_process(epochs) -> None:
     """A second island has its state read anew before each epoch, as one that goes on from a checkpoint has."""

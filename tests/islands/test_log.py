@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 from datetime import UTC, datetime
 
 import pyarrow as pa
@@ -14,6 +16,7 @@ from islands.individual import Evaluation
 from islands.log import LogWriter
 from islands.migration.channel import Channel
 from islands.schemas import TABLES, VERSION, columns, schema
+from islands.store import StoreError
 
 NOON = datetime(2026, 1, 2, 12, 0, 0, tzinfo=UTC)
 
@@ -143,3 +146,74 @@ def test_an_error_and_a_detail_that_are_no_utf_8_lose_nothing_of_the_log(tmp_pat
     details = [json.loads(text) for text in pq.read_table(tmp_path / "events")["detail"].to_pylist()]
     assert details[0] == {"id": 0, "why": "a \\udcff", "how much": "inf"}
     assert details[-1] == {"detail": "b\\udcff"}
+
+
+def test_a_span_is_written_with_all_its_tables_or_not_at_all(tmp_path, monkeypatch) -> None:
+    isle = island(0)
+    log = LogWriter(tmp_path, "test", [isle.spec], lambda: NOON)
+    log.add(0, 0, isle.begin().records)
+    real, written = os.fsync, []
+
+    def filling(number: int) -> None:
+        written.append(number)
+        if len(written) == 3:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        real(number)
+
+    monkeypatch.setattr(os, "fsync", filling)
+    with pytest.raises(StoreError, match="got no space left on device; make room on the disk"):
+        log.flush()
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+    # What could not be written is still there to be written.
+    assert len(log.flush()) == len(TABLES)
+    assert pq.read_table(tmp_path / "individuals").num_rows == isle.spec.population
+
+
+def stepped(log: LogWriter, epochs, isle=None) -> None:
+    """Log some epochs of an island that shows no events."""
+    isle = isle or island(0)
+    step = isle.begin()
+    for epoch in range(max(epochs) + 1):
+        if epoch in epochs:
+            log.add(0, epoch, step.records)
+        step = isle.advance(step.state, 1, [])
+
+
+def test_it_tells_what_it_wrote_however_the_flushes_are_cut(tmp_path) -> None:
+    log = LogWriter(tmp_path, "test", [spec()], lambda: NOON)
+    assert log.files == ()
+    stepped(log, range(9))
+    for through in (1, 1, 4, 6):
+        log.flush(through)
+    epochs = ("000000-000001", "000002-000004", "000005-000006")
+    names = [f"{table}/e{epochs[0]}-i00000-00000.parquet" for table in TABLES]
+    names += [
+        f"{table}/e{span}-i00000-00000.parquet" for span in epochs[1:] for table in ("individuals", "generations")
+    ]
+    assert [name for name, _ in log.files] == names
+    assert all((tmp_path / name).stat().st_size == size for name, size in log.files)
+    assert sorted(names) == sorted(str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/*.parquet"))
+
+
+def test_one_that_goes_on_writes_no_tables_without_rows(tmp_path) -> None:
+    log = LogWriter(tmp_path, "test", [spec()], lambda: NOON, begun=True)
+    stepped(log, [3])
+    log.flush()
+    assert [name.partition("/")[0] for name, _ in log.files] == ["individuals", "generations"]
+
+
+def test_events_told_after_their_epoch_never_take_the_place_of_others(tmp_path) -> None:
+    names = []
+    for begun in (False, True):
+        log = LogWriter(tmp_path, "test", [spec()], lambda: NOON, begun=begun)
+        if not begun:
+            stepped(log, [2])
+            log.flush()
+        for kind in ("one", "two"):
+            log.tell(0, 2, kind, {})
+            log.flush()
+        names += [name for name, _ in log.files if "after" in name]
+    ends = ("", "-2", "-3", "-4")
+    assert names == [f"events/e000002-000002-i00000-00000-after{end}.parquet" for end in ends]
+    kinds = [pq.read_table(tmp_path / name).column("kind").to_pylist() for name in names]
+    assert kinds == [["one"], ["two"]] * 2

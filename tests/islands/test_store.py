@@ -60,6 +60,10 @@ def test_names_and_folders_are_sorted_and_hide_what_is_hidden(store: Store) -> N
     assert (store.names(), store.folders()) == (["a", "b"], ["forms", "log"])
     assert (store.names("log"), store.folders("log")) == (["x"], ["deeper"])
     assert store.at("log").names() == ["x"]
+    store.write("log/.y", b"")
+    store.write("log/v", b"...")
+    assert list(store.sizes("log").items()) == [("v", 3), ("x", 1)]
+    assert store.sizes("none") == {}
     assert not store.exists("log")
     with pytest.raises(FileNotFoundError):
         store.read("log")

@@ -11,7 +11,8 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import replace
 from pathlib import Path
 
-from islands.host import Box, Host, HostPlan
+from islands.host import Host
+from islands.orders import Box, HostPlan
 from islands.wire import opened, sealed
 from orchestrator.archipelago import (
     Advance,

@@ -1,0 +1,361 @@
+"""The loop around the state machine: what hosts tell goes in, what it orders is done; checkpoints, commands, events.
+
+What the driver remembers of a run is a line an island; all else is in the run's folder.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Final, final
+
+from islands.log import Event as LogEvent
+from islands.log import events_table, write
+from islands.orders import Start
+from islands.store import Store
+from islands.tally import IslandSummary
+from orchestrator import messages
+from orchestrator.archipelago import Archipelago, decide, ungranted
+from orchestrator.backends.protocol import Backend, Deadlines, RunFailedError
+from orchestrator.checkpoints import Checkpoint, complete, log_of, newest
+from orchestrator.cutting import prune, roll_back
+from orchestrator.folder import RunFolder, on_disk, remove
+from orchestrator.lease import Lease
+from orchestrator.loading import Loaded, load_experiment
+from orchestrator.plan import Plan, host_plans
+from orchestrator.progress import Progress
+from orchestrator.query import ask
+from orchestrator.steering.command import ISLANDS, STRUCTURE
+from orchestrator.steering.helm import Helm
+from orchestrator.steering.restructuring import replayed
+from orchestrator.steering.structure import structure_of
+
+POLL_S: Final = 0.25
+PATIENCE: Final = 4
+LEAST_EPOCH_S: Final = 600.0
+MOST_EPOCH_S: Final = 86_400.0
+ENDS: Final = {"finished": "finish", "failed": "failure", "stopped": "stop"}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a run.
+
+    Attributes
+    ----------
+    store
+        The run's folder; it does not exist when the run failed before its first populations were scored.
+    status, reason
+        How it ended, and why.
+    islands, generations, evaluations
+        How many islands; generations that all of them finished; scorings done until then.
+    best
+        The best individual bred until then, still a member or not: island, id, fitness; ``None`` when all were invalid.
+    wall_s, startup_s
+        Wall time from start to end, and of it the time until all hosts stood.
+    stepped_s, busy
+        Wall time from then until all hosts had come to their last epoch, and the share of it that they spent on
+        stepping islands.
+    """
+
+    store: Store
+    status: messages.Status
+    reason: str
+    islands: int
+    generations: int
+    evaluations: int
+    best: dict[str, Any] | None
+    wall_s: float
+    startup_s: float
+    stepped_s: float
+    busy: float
+
+    @property
+    def folder(self) -> Path:
+        """The run's folder on the local disk where it stands."""
+        return on_disk(self.store)
+
+
+@final
+class Drive:
+    """See the module's docstring.
+
+    Parameters
+    ----------
+    folder
+        The run.
+    backend, hosts
+        Where the hosts are to be, opened, and how many.
+    seconds
+        What an evaluation may take, by group of islands.
+    progress
+        Is told how it goes.
+    clock
+        When the command began.
+    replay
+        The run that this one is to repeat, if any.
+    before
+        The checkpoint to go on from; its log is cut to it already.
+    lease
+        Keeps other processes from the run.
+    """
+
+    def __init__(
+        self,
+        folder: RunFolder,
+        backend: Backend,
+        hosts: int,
+        seconds: dict[str, float],
+        progress: Progress,
+        clock: float,
+        lease: Lease,
+        replay: RunFolder | None = None,
+        before: Checkpoint | None = None,
+    ) -> None:
+        # The run goes by its own folder from here on, as a replay will.
+        loaded = load_experiment(folder.experiment)
+        self.loaded = replace(loaded, source=folder.source)
+        self.folder, self.backend, self.hosts, self.progress = folder, backend, hosts, progress
+        self.structure = structure_of(self.loaded)
+        self.helm = Helm(folder.store, self.structure, self.loaded.experiment.length)
+        self.plan: Plan = self.structure.plan()
+        self.deadlines = deadlines_of(self.loaded, self.plan, hosts, seconds)
+        self.clock, self.lease, self.replay, self.before = clock, lease, replay, before
+        self.stood: float | None = None
+        self.latest: tuple[IslandSummary, ...] = ()
+        self.evaluations = self.evaluated_before = evaluations_until(folder, before)
+        self.stepped_s = 0.0
+        self.round = 0
+        self.written = len([name for name in folder.log.names("events") if name.startswith("run-")])
+
+    @property
+    def epoch(self) -> int:
+        """The epoch of the checkpoint that hosts began with; -1 for the start."""
+        return -1 if self.before is None else self.before.epoch
+
+    def to_the_end(self, stop: threading.Event) -> Outcome:
+        """Drive until the run is over."""
+        experiment = self.loaded.experiment
+        kind = "start" if self.before is None and not self.written else "resume"
+        detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
+        self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
+        self._begin()
+        self.progress.begin(self.plan, experiment, self.folder.store)
+        state = Archipelago(
+            self.hosts,
+            experiment.length,
+            experiment.schedule,
+            every=experiment.checkpoint.every,
+            spacing=experiment.checkpoint.spacing,
+            settled=self.epoch,
+            reached=self.epoch,
+            limit=self._limit(),
+        )
+        events: deque[messages.Event] = deque([messages.Begun()])
+        told = False
+        while True:
+            event = events.popleft() if events else self.backend.wait(POLL_S)
+            if stop.is_set() and not told:
+                events.append(messages.StopAsked())
+                self.progress.note("stopping: the epoch in hand is given up, the log is written (once more: at once)")
+                told = True
+            self.lease.renew()
+            events.extend(self._steered(state))
+            if event is None:
+                continue
+            state, instructions = decide(state, event)
+            for instruction in instructions:
+                if isinstance(instruction, messages.Conclude):
+                    return self._conclude(instruction)
+                events.extend(self._done(instruction))
+
+    def _done(self, instruction: messages.Instruction) -> Sequence[messages.Event]:
+        """Do what the archipelago decided."""
+        match instruction:
+            case messages.Report(epoch):
+                self._report(epoch)
+            case messages.Seal(epoch):
+                self._seal(epoch)
+            case messages.Pause(epoch):
+                self._paused(epoch)
+            case messages.Rewind(lost, reason):
+                return (self._rewound(lost, reason),)
+            case messages.Spawn() | messages.Advance() | messages.AskStop() | messages.Save() | messages.Finish():
+                if self.stood is None and isinstance(instruction, messages.Advance):
+                    self.stood = time.perf_counter()
+                if isinstance(instruction, messages.Finish) and not self.stepped_s:
+                    self.stepped_s = time.perf_counter() - (self.stood or time.perf_counter())
+                self.backend.perform(instruction)
+        return ()
+
+    # -- hosts -------------------------------------------------------------------------------------------------------
+
+    def _begin(self) -> None:
+        """Hand out the plans of all hosts, for what comes after the checkpoint."""
+        commands = self.helm.commands
+        known = [one for one in commands if one.epoch is not None and one.epoch <= self.epoch + 1]
+        self.structure = replayed(structure_of(self.loaded), known)
+        self.plan = self.structure.plan()
+        experiment = self.loaded.experiment
+        changes: dict[str, Any] = {
+            "epochs": experiment.length,
+            "schedule": experiment.schedule,
+            "replay": "" if self.replay is None else self.replay.log.place,
+            # Longer than the driver waits for a host that hangs: it knows whose fault it is.
+            "patience": PATIENCE * self.deadlines.epoch,
+            "start": None if self.before is None else Start(self.before.epoch, self.before.parts),
+            "interventions": tuple(
+                (one.epoch, one.intervention())
+                for one in commands
+                if one.is_accepted and one.verb in ISLANDS and one.epoch is not None and one.epoch > self.epoch
+            ),
+            "round": self.round,
+        }
+        place = (self.folder.name, self.folder.store)
+        plans = host_plans(self.loaded, self.plan, self.hosts, *place, epoch=self.epoch + 1)
+        self.backend.begin(tuple(replace(plan, **changes) for plan in plans), self.deadlines)
+
+    def _limit(self) -> int | None:
+        """Give the last epoch before islands or channels change, as commands of before decided."""
+        later = [one.epoch for one in self.helm.commands if one.is_accepted and one.verb in STRUCTURE]
+        return min((epoch - 1 for epoch in later if epoch is not None and epoch > self.epoch + 1), default=None)
+
+    def _rewound(self, lost: tuple[int, ...], reason: str) -> messages.Rewound:
+        """Make ready to begin anew from the last checkpoint."""
+        store = self.folder.store
+        if lost:
+            self.progress.note(f"{reason}; going on from the last checkpoint")
+        found, doubts = newest(store, self.folder.name, self.loaded.experiment.seed)
+        roll_back(store, found, keep_run_events=True)
+        self.before, self.round = found, self.round + 1
+        self.hosts = self.backend.regroup(lost, min(self.hosts, len(self.structure.living(self.epoch + 1))))
+        self.evaluations = evaluations_until(self.folder, found)
+        self._begin()
+        detail = {"hosts": self.hosts, "epoch": self.epoch, "reason": reason, "lost": list(lost)}
+        detail |= {"damaged": list(doubts)} if doubts else {}
+        self._tell("recovery" if lost else "restructure", detail)
+        return messages.Rewound(self.epoch, self.hosts, self._limit())
+
+    def _seal(self, epoch: int) -> None:
+        """Make a checkpoint whole, and remove those that are too many."""
+        saved = self.backend.ledger.parts(epoch)
+        checkpoint = Checkpoint(
+            run=self.folder.name,
+            seed=self.loaded.experiment.seed,
+            epoch=epoch,
+            parts=tuple(one.part for one in saved),
+            log=log_of(self.before, [one.files for one in saved]),
+            events=self.written,
+            commands=len(self.helm.commands),
+        )
+        complete(self.folder.store, checkpoint)
+        prune(self.folder.store, self.loaded.experiment.checkpoint.keep)
+
+    # -- steering ----------------------------------------------------------------------------------------------------
+
+    def _steered(self, state: Archipelago) -> Sequence[messages.Event]:
+        """Take the commands that have come, while there is a host to carry them out."""
+        if state.phase != "running":
+            return ()
+        events: list[messages.Event] = []
+        for command in self.helm.taken(ungranted(state)):
+            assert command.epoch is not None
+            self._tell("intervention", {"n": command.number, "verb": command.verb, "epoch": command.epoch})
+            if command.verb in ISLANDS:
+                for host in range(self.hosts):
+                    self.backend.perform(messages.Steer(host, command.epoch, command.intervention()))
+            elif command.verb in STRUCTURE:
+                events.append(messages.RestructureAsked(command.epoch))
+            else:
+                if command.verb == "resume":
+                    self.folder.update(status="running")
+                events.append(_ASKED[command.verb]())
+            self.progress.note(f"steered: {command.verb}, from epoch {command.epoch} on")
+        return events
+
+    def _paused(self, epoch: int) -> None:
+        self.folder.update(status="paused", **self.facts())
+        self.progress.note(f"paused after epoch {epoch}: go on with 'atoll steer RUN resume'")
+
+    # -- telling -----------------------------------------------------------------------------------------------------
+
+    def facts(self) -> dict[str, Any]:
+        """Give how far the run has come: keys of the manifest and of the outcome."""
+        return {
+            "wall_s": round(time.perf_counter() - self.clock, 3),
+            "startup_s": round((self.stood or time.perf_counter()) - self.clock, 3),
+            "generations": max((row.generation for row in self.latest), default=0),
+            "evaluations": self.evaluations,
+            "best": best_row(self.latest),
+            "stepped_s": round(self.stepped_s, 4),
+            "busy": round(self.backend.ledger.busy_s / max(self.stepped_s * self.hosts, 1e-9), 4),
+        }
+
+    def _report(self, epoch: int) -> None:
+        self.latest = self.backend.ledger.summaries(epoch)
+        self.evaluations += sum(row.evaluations for row in self.latest)
+        self.progress.epoch(epoch, self.latest)
+
+    def _conclude(self, end: messages.Conclude) -> Outcome:
+        store = self.folder.store
+        facts, islands = self.facts(), len(self.structure.living(self.epoch + 1))
+        outcome = Outcome(store=store, status=end.status, reason=end.reason, islands=islands, **facts)
+        self.helm.close(f"the run is {end.status}")
+        if end.status == "failed" and not end.settled:
+            remove(self.folder)
+            raise RunFailedError(end.reason)
+        if end.torn:
+            found, _ = newest(store, self.folder.name, self.loaded.experiment.seed)
+            roll_back(store, found, keep_run_events=True)
+        self._tell(ENDS[end.status], {"reason": end.reason})
+        ended = datetime.now(UTC).isoformat(timespec="seconds")
+        self.folder.update(status=end.status, ended=ended, error=end.reason, **facts)
+        return outcome
+
+    def _tell(self, kind: str, detail: dict[str, Any]) -> None:
+        """Write an event of the whole run at once, so that the log of a killed run tells of its start."""
+        epoch = self.latest[0].epoch if self.latest else None
+        event = LogEvent(None, datetime.now(UTC), epoch, kind, detail)
+        write(self.folder.log, "events", f"run-{self.written:04d}", events_table(self.folder.name, [event]))
+        self.written += 1
+
+
+_ASKED: Final[dict[str, type[messages.PauseAsked | messages.ResumeAsked | messages.StopAsked | messages.SaveAsked]]] = {
+    "pause": messages.PauseAsked,
+    "resume": messages.ResumeAsked,
+    "stop": messages.StopAsked,
+    "checkpoint": messages.SaveAsked,
+}
+
+
+def evaluations_until(folder: RunFolder, checkpoint: Checkpoint | None) -> int:
+    """Give how many scorings the log tells of, up to a checkpoint."""
+    if checkpoint is None:
+        return 0
+    sql = f"select coalesce(sum(evaluations), 0) from generations where epoch <= {checkpoint.epoch}"  # noqa: S608
+    return int(ask(folder.log, sql).rows[0][0])
+
+
+def best_row(rows: tuple[IslandSummary, ...]) -> dict[str, Any] | None:
+    """Give the best individual that the islands ever bred: island, id, fitness; of equal ones the lowest id."""
+    champions = [(row.island, *row.champion) for row in rows if row.champion is not None]
+    if not champions:
+        return None
+    island, fitness, identity = min(champions, key=lambda one: (-one[1], one[2]))
+    return {"island": island, "id": identity, "fitness": fitness}
+
+
+def deadlines_of(loaded: Loaded, plan: Plan, hosts: int, seconds: dict[str, float]) -> Deadlines:
+    """Give how long hosts may take."""
+    settings, generations = loaded.experiment.deadlines, loaded.experiment.epoch
+    if settings.epoch is not None:
+        return Deadlines(settings.start, settings.epoch, settings.finish, settings.silence)
+    share = -(-len(plan.islands) // hosts)
+    heaviest = sorted((spec.population * seconds[spec.group] for spec in plan.islands), reverse=True)[:share]
+    epoch = min(max(sum(heaviest) * generations, LEAST_EPOCH_S), MOST_EPOCH_S)
+    return Deadlines(settings.start, epoch, settings.finish, settings.silence)
