@@ -30,12 +30,15 @@ from orchestrator.loading import Loaded, load_experiment
 from orchestrator.plan import Plan, host_plans
 from orchestrator.progress import Progress
 from orchestrator.query import ask
-from orchestrator.steering.command import ISLANDS, STRUCTURE
-from orchestrator.steering.helm import Helm
+from orchestrator.steering.command import ISLANDS, RUN, STRUCTURE, Request
+from orchestrator.steering.desk import Desk
 from orchestrator.steering.restructuring import replayed
 from orchestrator.steering.structure import structure_of
 
 POLL_S: Final = 0.25
+FAR_S: Final = 2.0
+"""Seconds between two looks for commands of a run that is in a bucket, where each look costs a request."""
+
 PATIENCE: Final = 4
 LEAST_EPOCH_S: Final = 600.0
 MOST_EPOCH_S: Final = 86_400.0
@@ -122,7 +125,7 @@ class Drive:
         self.loaded = replace(loaded, source=folder.source)
         self.folder, self.backend, self.hosts, self.progress = folder, backend, hosts, progress
         self.structure = structure_of(self.loaded)
-        self.helm = Helm(folder.store, self.structure, self.loaded.experiment.length)
+        self.desk = Desk(folder.store, self.loaded)
         self.plan: Plan = self.structure.plan()
         self.deadlines = deadlines_of(self.loaded, self.plan, hosts, seconds)
         self.clock, self.lease, self.replay, self.before = clock, lease, replay, before
@@ -130,7 +133,7 @@ class Drive:
         self.latest: tuple[IslandSummary, ...] = ()
         self.evaluations = self.evaluated_before = evaluations_until(folder, before)
         self.stepped_s = 0.0
-        self.round = 0
+        self.round, self.looked, self.is_paused = 0, 0.0, False
         self.written = len([name for name in folder.log.names("events") if name.startswith("run-")])
 
     @property
@@ -159,15 +162,19 @@ class Drive:
         events: deque[messages.Event] = deque([messages.Begun()])
         told = False
         while True:
-            event = events.popleft() if events else self.backend.wait(POLL_S)
+            if not events:
+                heard = self.backend.wait(POLL_S)
+                events.extend(() if heard is None else (heard,))
             if stop.is_set() and not told:
                 events.append(messages.StopAsked())
                 self.progress.note("stopping: the epoch in hand is given up, the log is written (once more: at once)")
                 told = True
             self.lease.renew()
-            events.extend(self._steered(state))
-            if event is None:
+            # Before all else: what was heard may let hosts begin the epoch in which a command takes effect.
+            events.extendleft(reversed(self._steered(state)))
+            if not events:
                 continue
+            event = events.popleft()
             state, instructions = decide(state, event)
             for instruction in instructions:
                 if isinstance(instruction, messages.Conclude):
@@ -197,7 +204,7 @@ class Drive:
 
     def _begin(self) -> None:
         """Hand out the plans of all hosts, for what comes after the checkpoint."""
-        commands = self.helm.commands
+        commands = self.desk.commands
         known = [one for one in commands if one.epoch is not None and one.epoch <= self.epoch + 1]
         self.structure = replayed(structure_of(self.loaded), known)
         self.plan = self.structure.plan()
@@ -222,7 +229,7 @@ class Drive:
 
     def _limit(self) -> int | None:
         """Give the last epoch before islands or channels change, as commands of before decided."""
-        later = [one.epoch for one in self.helm.commands if one.is_accepted and one.verb in STRUCTURE]
+        later = [one.epoch for one in self.desk.commands if one.is_accepted and one.verb in STRUCTURE]
         return min((epoch - 1 for epoch in later if epoch is not None and epoch > self.epoch + 1), default=None)
 
     def _rewound(self, lost: tuple[int, ...], reason: str) -> messages.Rewound:
@@ -251,7 +258,7 @@ class Drive:
             parts=tuple(one.part for one in saved),
             log=log_of(self.before, [one.files for one in saved]),
             events=self.written,
-            commands=len(self.helm.commands),
+            commands=len(self.desk.commands),
         )
         complete(self.folder.store, checkpoint)
         prune(self.folder.store, self.loaded.experiment.checkpoint.keep)
@@ -260,10 +267,12 @@ class Drive:
 
     def _steered(self, state: Archipelago) -> Sequence[messages.Event]:
         """Take the commands that have come, while there is a host to carry them out."""
-        if state.phase != "running":
+        now = time.monotonic()
+        if state.phase != "running" or (self.folder.store.local is None and now < self.looked + FAR_S):
             return ()
+        self.looked = now
         events: list[messages.Event] = []
-        for command in self.helm.taken(ungranted(state)):
+        for command in self.desk.look(ungranted(state), self._objection):
             assert command.epoch is not None
             self._tell("intervention", {"n": command.number, "verb": command.verb, "epoch": command.epoch})
             if command.verb in ISLANDS:
@@ -272,13 +281,24 @@ class Drive:
             elif command.verb in STRUCTURE:
                 events.append(messages.RestructureAsked(command.epoch))
             else:
-                if command.verb == "resume":
+                if command.verb == "resume" and self.is_paused:
+                    self.is_paused = False
                     self.folder.update(status="running")
                 events.append(_ASKED[command.verb]())
             self.progress.note(f"steered: {command.verb}, from epoch {command.epoch} on")
         return events
 
+    def _objection(self, request: Request, epoch: int) -> str:
+        """Say why a command comes too late."""
+        length = self.loaded.experiment.length
+        if request.verb in RUN or epoch <= length:
+            return ""
+        return f"the run ends with epoch {length}, and no earlier one can still be changed"
+
     def _paused(self, epoch: int) -> None:
+        if self.is_paused:
+            return
+        self.is_paused = True
         self.folder.update(status="paused", **self.facts())
         self.progress.note(f"paused after epoch {epoch}: go on with 'atoll steer RUN resume'")
 
@@ -305,7 +325,7 @@ class Drive:
         store = self.folder.store
         facts, islands = self.facts(), len(self.structure.living(self.epoch + 1))
         outcome = Outcome(store=store, status=end.status, reason=end.reason, islands=islands, **facts)
-        self.helm.close(f"the run is {end.status}")
+        self.desk.close(f"the run is {end.status}")
         if end.status == "failed" and not end.settled:
             remove(self.folder)
             raise RunFailedError(end.reason)

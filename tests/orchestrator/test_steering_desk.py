@@ -19,14 +19,11 @@ from islands.interventions.intervention import Intervention
 from islands.store import Store
 from orchestrator.cli import main
 from orchestrator.loading import load_experiment
-from orchestrator.plan import Plan
 from orchestrator.steering.command import Command, Request
-from orchestrator.steering.helm import Helm
+from orchestrator.steering.desk import Desk
 from orchestrator.steering.journal import FILE, Journal, interventions_at, read_commands, structural
 from orchestrator.steering.mailbox import Answer, await_answer, letters, post, reply
 from orchestrator.steering.past import Past
-from orchestrator.steering.restructuring import replayed
-from orchestrator.steering.structure import structure_of
 
 WEIGHT = Request("weight", {"values": {"ones": 2.0}})
 ENDED = Answer(accepted=False, epoch=None, reason="the run has finished")
@@ -47,14 +44,6 @@ class Clock:
         self.now += seconds
         if self.happenings:
             self.happenings.pop(0)()
-
-
-def helm_of(store: Store, loaded: Any) -> Helm:
-    return Helm(store, structure_of(loaded), 9)
-
-
-def plan_of(helm: Helm, loaded: Any) -> Plan:
-    return replayed(structure_of(loaded), helm.commands).plan()
 
 
 @pytest.fixture
@@ -167,11 +156,11 @@ def test_letters_are_in_the_order_of_their_times_and_what_is_none_is_answered(st
     assert len(store.names("inbox")) == 2
 
 
-# -- the helm ----------------------------------------------------------------------------------------------------------
+# -- the desk ----------------------------------------------------------------------------------------------------------
 
 
-def test_commands_are_decided_remembered_and_answered(store, loaded) -> None:
-    helm = helm_of(store, loaded)
+def test_the_desk_decides_remembers_and_answers(store, loaded) -> None:
+    desk = Desk(store, loaded)
     tokens = [
         post(store, Request(verb, arguments), f"2026-{place:02}", "me")
         for place, (verb, arguments) in enumerate(
@@ -186,62 +175,65 @@ def test_commands_are_decided_remembered_and_answered(store, loaded) -> None:
         )
     ]
 
-    taken = list(helm.taken(3))
+    def objection(request: Request, epoch: int) -> str:
+        return f"not at epoch {epoch}" if request.verb == "pause" else ""
+
+    taken = desk.look(3, objection)
     assert [(one.number, one.verb, one.epoch) for one in taken] == [
         (0, "weight", 3),
         (2, "add-island", 3),
         (3, "connect", 3),
-        (5, "pause", 3),
     ]
+    assert [one.outcome for one in desk.commands][5] == "not at epoch 3"
     answers = [await_answer(store, token, 0, lambda: 0.0, lambda _: None) for token in tokens]
     assert [(one.accepted, one.epoch) for one in answers if one] == [
-        (True, 3), (False, None), (True, 3), (True, 3), (False, None), (True, 3)
+        (True, 3), (False, None), (True, 3), (True, 3), (False, None), (False, None)
     ]  # fmt: skip
     assert answers[1] is not None
     assert "did you mean 'ones'?" in answers[1].reason
-    assert interventions_at(helm.commands, 3) == (Intervention("weight", {"values": {"ones": 2.0}}, (), 0),)
-    assert [spec.name for spec in plan_of(helm, loaded).islands if spec.since == 3] == ["west"]
-    assert helm_of(store, loaded).commands == helm.commands
-    assert list(helm.taken(3)) == []
+    assert desk.interventions(3) == (Intervention("weight", {"values": {"ones": 2.0}}, (), 0),)
+    assert [spec.name for spec in desk.plan().islands if spec.since == 3] == ["west"]
+    assert Desk(store, loaded).plan() == desk.plan()
+    assert desk.look(3) == []
 
 
 def test_a_letter_that_was_taken_before_a_crash_counts_once(store, loaded) -> None:
     token = post(store, WEIGHT, TIME, "me")
     letter = store.read(f"inbox/{token}.json")
-    assert len(list(helm_of(store, loaded).taken(3))) == 1
+    assert len(Desk(store, loaded).look(3)) == 1
     store.write(f"inbox/{token}.json", letter)
-    helm = helm_of(store, loaded)
-    assert list(helm.taken(5)) == []
-    assert len(helm.commands) == 1
+    desk = Desk(store, loaded)
+    assert desk.look(5) == []
+    assert len(desk.commands) == 1
     assert await_answer(store, token, 0, lambda: 0.0, lambda _: None) == Answer(accepted=True, epoch=3)
 
 
 def test_after_a_rollback_commands_come_after_those_that_were_decided(store, loaded) -> None:
-    helm = helm_of(store, loaded)
+    desk = Desk(store, loaded)
     post(store, WEIGHT, TIME, "me")
-    list(helm.taken(7))
+    desk.look(7)
     post(store, Request("disconnect", {"channel": "migrants-1"}), TIME, "me")
-    (command,) = helm_of(store, loaded).taken(2)
+    (command,) = Desk(store, loaded).look(2)
     assert command.epoch == 7
     post(store, WEIGHT, TIME, "me")
-    fresh = helm_of(Store.open(store.at("other").place), loaded)
+    fresh = Desk(Store.open(store.at("other").place), loaded)
     assert fresh.commands == ()
 
 
-def test_who_waits_at_the_end_is_answered(store, loaded) -> None:
-    helm = helm_of(store, loaded)
+def test_nobody_is_told_of_epoch_0_and_who_waits_at_the_end_is_answered(store, loaded) -> None:
+    desk = Desk(store, loaded)
     post(store, WEIGHT, TIME, "me")
-    assert [one.epoch for one in helm.taken(1)] == [1]
+    assert [one.epoch for one in desk.look(0)] == [1]
     token = post(store, WEIGHT, TIME, "me")
-    helm.close("the run has finished")
+    desk.close("the run has finished")
     assert await_answer(store, token, 0, lambda: 0.0, lambda _: None) == ENDED
-    assert len(helm.commands) == 1
+    assert len(desk.commands) == 1
 
 
 def test_a_run_that_was_steered_goes_the_same_way_from_its_journal(store, loaded) -> None:
     """What one process was told as it went, another reads in commands.jsonl: the same epochs, the same result."""
-    helm = helm_of(store, loaded)
-    first = Steered(plan_of(helm, loaded), 7)
+    desk = Desk(store, loaded)
+    first = Steered(desk.plan(), 7)
     lines = {
         2: [WEIGHT, Request("lock", {"id": make_id(0, 0)})],
         3: [
@@ -254,17 +246,17 @@ def test_a_run_that_was_steered_goes_the_same_way_from_its_journal(store, loaded
     for epoch in range(7):
         for place, request in enumerate(lines.get(epoch, ())):
             post(store, request, f"{epoch}-{place}", "me")
-        list(helm.taken(epoch))
-        first.remake(plan_of(helm, loaded))
-        first.step(helm.commands)
-    again = helm_of(store, loaded)
-    second = Steered(plan_of(again, loaded), 7)
+        desk.look(epoch)
+        first.remake(desk.plan())
+        first.step(desk.commands)
+    again = Desk(store, loaded)
+    second = Steered(again.plan(), 7)
     for _ in range(7):
         second.step(again.commands)
     assert second.born() == first.born()
     assert second.states == first.states
     assert {number for number, state in first.states.items() if state.steered.goals} == {0, 1, 3, 4}
-    assert len(helm.commands) == 7
+    assert len(desk.commands) == 7
 
 
 # -- the command line --------------------------------------------------------------------------------------------------
@@ -287,12 +279,12 @@ def steer(folder: Path, *words: str) -> tuple[int, str, str]:
 
 
 def test_a_command_is_answered_by_the_run(folder) -> None:
-    helm = helm_of(Store.open(folder), load_experiment(folder / "experiment.yaml"))
-    over, ungranted = threading.Event(), [5]
+    desk = Desk(Store.open(folder), load_experiment(folder / "experiment.yaml"))
+    over = threading.Event()
 
     def drive() -> None:
         while not over.wait(0.01):
-            list(helm.taken(ungranted[0]))
+            desk.look(5, lambda request, epoch: "it is not paused" if request.verb == "resume" else "")
 
     driver = threading.Thread(target=drive)
     driver.start()
@@ -300,16 +292,14 @@ def test_a_command_is_answered_by_the_run(folder) -> None:
         assert steer(folder, "weight", "ones=3") == (0, "weight: accepted, from epoch 5 on\n", "")
         code, out, _ = steer(folder, "lock", "3", "--island", "north-0", "--json")
         assert (code, json.loads(out)) == (0, {"accepted": True, "epoch": 5, "reason": ""})
-        ungranted[0] = 10
-        code, out, err = steer(folder, "lock", "4", "--json")
-        reason = "steer lock: expected a run of more than 9 epochs, got epoch 10, the first that can still be changed"
-        assert (code, json.loads(out)) == (2, {"accepted": False, "epoch": None, "reason": reason})
-        assert err == f"atoll: {folder} refused 'lock': {reason}\n"
+        code, out, err = steer(folder, "resume", "--json")
+        assert (code, json.loads(out)) == (2, {"accepted": False, "epoch": None, "reason": "it is not paused"})
+        assert err == f"atoll: {folder} refused 'resume': it is not paused\n"
     finally:
         over.set()
         driver.join()
-    assert [(one.verb, one.epoch) for one in helm.commands] == [("weight", 5), ("lock", 5), ("lock", None)]
-    assert helm.commands[0].by
+    assert [(one.verb, one.epoch) for one in desk.commands] == [("weight", 5), ("lock", 5), ("resume", None)]
+    assert "@" in desk.commands[0].by or desk.commands[0].by
     assert not list((folder / "inbox").iterdir())
 
 
@@ -351,8 +341,8 @@ def test_a_run_that_does_not_answer_is_given_up(folder) -> None:
 
 
 def test_individuals_of_a_steered_run_are_scored_by_the_goals_of_their_epoch(store, loaded) -> None:
-    helm = helm_of(store, loaded)
-    run = Steered(plan_of(helm, loaded), 7)
+    desk = Desk(store, loaded)
+    run = Steered(desk.plan(), 7)
     lines = {
         2: [Request("add-island", {"name": "west", "like": "north", "set": []}), WEIGHT],
         4: [Request("target", {"values": {"ones": 9}, "islands": ["north-0", "west"]})],
@@ -361,13 +351,13 @@ def test_individuals_of_a_steered_run_are_scored_by_the_goals_of_their_epoch(sto
     for epoch in range(7):
         for place, request in enumerate(lines.get(epoch, ())):
             post(store, request, f"{epoch}-{place}", "me")
-        list(helm.taken(epoch))
-        run.remake(plan_of(helm, loaded))
-        run.step(helm.commands)
-    past, build = Past(read_commands(store), plan_of(helm, loaded).islands), Biologies(lambda: 0.0)
+        desk.look(epoch)
+        run.remake(desk.plan())
+        run.step(desk.commands)
+    past, build = Past(read_commands(store), desk.plan().islands), Biologies(lambda: 0.0)
     scorings = set()
     for (number, epoch), records in run.records.items():
-        biology = build(past.spec(plan_of(helm, loaded).islands[number].name, epoch))
+        biology = build(past.spec(desk.plan().islands[number].name, epoch))
         scorings.add((number, biology.scoring))
         for row in records.born:
             assert biology.evaluate(biology.decode(row.genotype)).fitness == row.fitness
