@@ -80,6 +80,7 @@ class HostActor:
     def restart(self, plan: HostPlan, mail: str) -> Address:
         """Begin anew with another plan, in this process, where all that is imported and compiled is at hand."""
         gc.unfreeze()
+        self._host.close()
         if self._letterbox is not None:
             self._letterbox.close()
         self._take(plan, mail)

@@ -12,6 +12,7 @@ import threading
 import time
 from collections import defaultdict, deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
 from datetime import UTC, datetime
 from typing import Any, Final, final
 
@@ -19,12 +20,12 @@ from genome.errors import InputError
 from growth.protocol import Clock
 from islands.agenda import Agenda, Complete, Present, Recorded, Rule, ranks
 from islands.arrivals import arrivals_detail, recorded_arrivals
+from islands.biologies import Biologies
 from islands.checkpoint import Kept, read_parts, write_part
 from islands.forms import best_forms, write_forms
 from islands.inputs import inputs_here
 from islands.interventions.intervention import Intervention
 from islands.island import Island
-from islands.kinds.registry import resolve_kind
 from islands.log import LogWriter
 from islands.mail import Bell, Porch
 from islands.migration.adapters import adapters_into
@@ -111,6 +112,7 @@ class Host:
         self._tally = Tally(plan.islands)
         log, begun = Store.open(plan.folder).at("log"), plan.start is not None
         self._log = LogWriter(log, plan.run, plan.islands, calendar, begun=begun)
+        self._inputs = ExitStack()
         self._transit = Transit()
         self._interventions: dict[int, list[Intervention]] = defaultdict(list)
         for epoch, one in plan.interventions:
@@ -127,8 +129,9 @@ class Host:
         """
         pin_threads()
         self._log.warm()
-        with inputs_here(self._plan) as plan:
-            self._islands = self._made(plan)
+        # For as long as the host is: an island that is steered to other goals is built anew.
+        plan = self._inputs.enter_context(inputs_here(self._plan))
+        self._islands = self._made(plan)
         # Where nobody waits, nobody is to be kept supplied.
         order = {} if plan.schedule != "dataflow" else ranks(plan.placement, plan.host, plan.edges)
         finished = -1 if plan.start is None else plan.start.epoch
@@ -151,22 +154,20 @@ class Host:
                 self._agenda.put(packet)
 
     def _made(self, plan: HostPlan) -> dict[int, Island[Any]]:
-        # Islands of one group differ in nothing that their biology sees, so they share it: ten thousand islands
-        # need no ten thousand environments.
-        groups = {spec.group: spec for spec in plan.islands}
-        biology = {
-            name: resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock) for name, spec in groups.items()
-        }
+        # Islands of one group differ in nothing that their biology sees, until they are steered, so they share it: ten
+        # thousand islands need no ten thousand environments.
+        build = Biologies(self._clock)
         strangers = _strangers(plan)
         return {
             spec.number: Island(
                 spec,
-                biology[spec.group],
+                build(spec),
                 plan.seed,
                 self._routes,
                 self._clock,
                 self._pulse,
                 adapters_into(spec, strangers.get(spec.number, ()), spec.source),
+                build,
             )
             for spec in plan.islands
         }
@@ -402,7 +403,12 @@ class Host:
             for number, state in states.items():
                 files.extend(self._write_forms(self._islands[number], state, folder))
             self._log.flush()
+        self.close()
         return Finished(tuple(files), self._tally.since(settled, through) if through > settled else ())
+
+    def close(self) -> None:
+        """Put away what was brought to this machine; nothing steps any more."""
+        self._inputs.close()
 
     def _write_forms(self, island: Island[Any], state: State[Any], folder: Store) -> Sequence[str]:
         def failed(detail: dict[str, Any]) -> None:

@@ -7,7 +7,7 @@ from typing import Final, final
 
 from genome.errors import InputError
 from islands.interventions.intervention import Intervention
-from islands.store import Store
+from islands.store import Store, StoreError
 from orchestrator.loading import Loaded
 from orchestrator.plan import Plan
 from orchestrator.steering.checks import checked
@@ -83,15 +83,25 @@ class Desk:
         Returns
         -------
         Those accepted, in order.
+
+        Raises
+        ------
+        StoreError
+            When the folder cannot be read or written, and nothing was decided: what was decided before that is
+            given back, and the rest waits for the next look.
         """
-        taken = []
-        for letter in letters(self._store):
-            command = self._journal.by_token(letter.token)
-            if command is None:
-                command = self._decided(letter, max(1, self._journal.earliest(ungranted)), objection)
-                if command.is_accepted:
-                    taken.append(command)
-            reply(self._store, letter.token, answer_of(command))
+        taken: list[Command] = []
+        try:
+            for letter in letters(self._store):
+                command = self._journal.by_token(letter.token)
+                if command is None:
+                    command = self._decided(letter, max(1, self._journal.earliest(ungranted)), objection)
+                    if command.is_accepted:
+                        taken.append(command)
+                reply(self._store, letter.token, answer_of(command))
+        except StoreError:
+            if not taken:
+                raise
         return taken
 
     def _decided(self, letter: Letter, epoch: int, objection: Objection) -> Command:

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from typing import Any
 
 import pytest
-from archipelagos import LENGTH, edge, island, ring, without_clock
-from hypothesis import given
+from archipelagos import LENGTH, island, ring, without_clock
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from evaluators.fitness import Goal
 from genome.errors import InputError
-from islands.individual import make_id
+from islands.individual import Individual, make_id
 from islands.interventions.intervention import Intervention
 from islands.interventions.registry import KINDS
 from islands.island import Island
 from islands.migration.channel import Channel, Migrant, Packet
+from islands.migration.emigrants import Crowd, emigrants
 from islands.selection import ranked
 from islands.settings import Algorithm
 from islands.state import Advance
 from islands.steered import UNSTEERED, Steered
+from islands.streams import EpochStreams
 
 GOALS = {"ones": {"goal": "maximise"}, "edges": {"goal": "maximise", "weight": 0.5}}
 
@@ -360,6 +363,7 @@ some = st.one_of(
 )  # fmt: skip
 
 
+@settings(deadline=None)
 @given(st.lists(st.lists(some, max_size=4), min_size=2, max_size=4))
 def test_the_same_interventions_give_the_same_result_in_any_process(epochs) -> None:
     """A second island has its state read anew before each epoch, as one that goes on from a checkpoint has."""
@@ -406,13 +410,22 @@ def test_an_island_may_begin_in_a_later_epoch() -> None:
 
 
 def test_a_roulette_weighs_one_who_is_promoted_as_the_best() -> None:
+    members = [Individual(1, (), 0.0, (), ""), Individual(2, (), 10.0, (), ""), Individual(3, (), 5.0, (), "")]
+    crowd = Crowd(ranked(members, (1,)), island().biology, promoted=(1,))
+    assert [one.id for one in crowd.order] == [1, 2, 3]
     channel = Channel(0, "wheel", select="roulette")
-    isle = island(0, (edge(channel, 0, 1),), population=3, algorithm=Algorithm(elite=2, tournament=1))
-    drawn = 0
+    drawn = Counter(crowd.order[emigrants(crowd, 1, channel, EpochStreams(9, 0, n))[0]].id for n in range(400))
+    assert set(drawn) == {1, 2}, "the worst of the others weighs nothing"
+    assert drawn[1] == pytest.approx(200, abs=40)
+
+
+@pytest.mark.parametrize("replace", ["worst", "random", "oldest", "tournament", "similar"])
+def test_no_migrant_is_better_than_one_who_is_promoted(replace) -> None:
+    channel = Channel(0, "ring", replace=replace, accept="better")
+    isle = island(0, ring(2, channel), population=1, algorithm=Algorithm(name="plus", crossover=0.0))
     state = isle.begin().state
-    worst = ranked(state.deme)[-1].id
-    for _ in range(40):
-        step = isle.advance(state, 1, (), [Intervention("promote", {"id": worst})] if state.epoch == 0 else ())
-        state = step.state
-        drawn += step.departures[0].migrants[0].id == worst
-    assert 5 < drawn < 35
+    packet = Packet(0, 1, 0, 0, isle.biology.scoring, (Migrant(make_id(1, 0), text(LENGTH), 24.0, (), ""),))
+    promoted = isle.advance(state, 1, [packet], [Intervention("promote", {"id": state.deme[0].id})])
+    assert [row.reason for row in promoted.records.crossings] == ["not better"]
+    assert ids(promoted.state.deme) == ids(state.deme)
+    assert isle.advance(state, 1, [packet]).records.crossings[0].accepted

@@ -16,7 +16,7 @@ from genome.errors import InputError
 from islands.biologies import Biologies
 from islands.individual import make_id
 from islands.interventions.intervention import Intervention
-from islands.store import Store
+from islands.store import Store, StoreError
 from orchestrator.cli import main
 from orchestrator.loading import load_experiment
 from orchestrator.steering.command import Command, Request
@@ -206,6 +206,28 @@ def test_a_letter_that_was_taken_before_a_crash_counts_once(store, loaded) -> No
     assert desk.look(5) == []
     assert len(desk.commands) == 1
     assert await_answer(store, token, 0, lambda: 0.0, lambda _: None) == Answer(accepted=True, epoch=3)
+
+
+def test_what_was_decided_is_given_back_though_the_store_fails_after_it(store, loaded, monkeypatch) -> None:
+    desk = Desk(store, loaded)
+    tokens = [post(store, WEIGHT, f"2026-{place}", "me") for place in range(3)]
+    write_file = type(store).write
+    left = ["outbox"]
+
+    def failing(self: Store, name: str, content: bytes, staging: str = "") -> None:
+        if left and name.startswith(left[0]):
+            raise StoreError("bucket", "a store that answers", "none")
+        write_file(self, name, content, staging)
+
+    monkeypatch.setattr(type(store), "write", failing)
+    assert [one.number for one in desk.look(3)] == [0], "it is in the history: its islands are to hear of it"
+    left[0] = FILE
+    with pytest.raises(StoreError):
+        desk.look(4)
+    left.clear()
+    assert [(one.number, one.epoch) for one in desk.look(5)] == [(1, 5), (2, 5)]
+    answers = [await_answer(store, token, 0, lambda: 0.0, lambda _: None) for token in tokens]
+    assert [one.epoch for one in answers if one] == [3, 5, 5]
 
 
 def test_after_a_rollback_commands_come_after_those_that_were_decided(store, loaded) -> None:
