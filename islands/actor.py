@@ -113,10 +113,10 @@ class HostActor:
         """Write the rest; see :meth:`Host.finish`."""
         return self._host.finish(forms, settled, through)
 
-    def stop(self, turn: int) -> None:
-        """Ask for the epoch in hand to be abandoned, unless the host has begun anew since."""
+    def stop(self, turn: int, lost: bool = False) -> None:
+        """Ask for the epoch in hand to be abandoned, unless the host has begun anew since; see :meth:`Host.stop`."""
         if turn == self._plan.round:
-            self._host.stop()
+            self._host.stop(lost)
 
     def step(self) -> Step:
         """Give what the host is at."""

@@ -95,7 +95,7 @@ class Host:
         self._plan = plan
         self._clock = clock
         self._post = post
-        self._stop = threading.Event()
+        self._stop, self._alone = threading.Event(), threading.Event()
         self._porch: Porch = porch or Bell()
         self._mail: deque[Box] = deque()
         self._islands: dict[int, Island[Any]] = {}
@@ -181,8 +181,17 @@ class Host:
 
     # -- what may be called from another thread ------------------------------------------------------------------
 
-    def stop(self) -> None:
-        """Ask for the epoch in hand to be abandoned."""
+    def stop(self, lost: bool = False) -> None:
+        """Ask for the epoch in hand to be abandoned.
+
+        Parameters
+        ----------
+        lost
+            Whether another host is lost, so that what this one waits for may never come: it gives up its part of a
+            checkpoint too, and letters that have not gone out.
+        """
+        if lost:
+            self._alone.set()
         self._stop.set()
         self._porch.ring()
 
@@ -306,6 +315,8 @@ class Host:
         """Wait until all that was posted has gone out: who hears that an epoch is done has its packets to hand."""
         started = self._clock()
         while self._porch.owing:
+            if self._alone.is_set():
+                raise StoppedError
             if not self._porch.wait(self._plan.patience):
                 raise StarvedError(f"waited {self._plan.patience:g} s for a host that takes no letters")
             self._collect()
@@ -360,12 +371,18 @@ class Host:
         ------
         StarvedError
             When packets that other hosts sent by then do not come.
+        StoppedError
+            When one of these hosts is lost.
         """
         while any(self._gathered.values()):
             self._send()
+            if self._alone.is_set():
+                raise StoppedError
         self._see_off()
         pending = self._pending(epoch)
         while lacking(self._routes, epoch, pending):
+            if self._alone.is_set():
+                raise StoppedError
             if not self._porch.wait(self._plan.patience):
                 raise StarvedError(f"waited {self._plan.patience:g} s for packets of epoch {epoch}")
             pending = self._pending(epoch)

@@ -387,15 +387,15 @@ def _failed(state: Archipelago, event: HostFailed) -> Step:
     if event.alive:
         is_call = bool(state.calls[event.host]) and not event.part
         state = _called_back(state, event.host, event.epoch) if is_call else _heard(state, event.host)
-        return _go_on(state) if state.phase == "rewinding" else _break_off(state, event.reason)
+        # Where a host is lost already, others raise because of that.
+        return _go_on(state) if state.lost else _break_off(state, event.reason)
     before = state
     state = _heard(state, event.host)
     calls = (*state.calls[: event.host], (), *state.calls[event.host + 1 :])
     state = replace(state, calls=calls, lost=tuple(sorted({*state.lost, event.host})))
-    if state.verdict[0] != "finished":
-        return _go_on(replace(state, saving=None))
-    if before.phase == "rewinding":
-        return _go_on(state)
+    if state.verdict[0] != "finished" or before.phase == "rewinding":
+        following, instructions = _go_on(replace(state, saving=None))
+        return following, instructions or _stops(following)
     if state.losses >= MOST_LOSSES:
         again = f"{event.reason}; it is the {state.losses + 1}th loss in a row without an epoch in between"
         return _break_off(state, again)
@@ -413,7 +413,10 @@ def _busy(state: Archipelago) -> tuple[int, ...]:
 
 
 def _stops(state: Archipelago) -> tuple[Instruction, ...]:
-    return tuple(AskStop(host) for host in range(state.hosts) if host not in state.lost and state.calls[host])
+    """Ask hosts to stop; those that write their part of a checkpoint and wait for one that is lost, too."""
+    if state.lost:
+        return tuple(AskStop(host, lost=True) for host in _busy(state))
+    return tuple(AskStop(host) for host in range(state.hosts) if state.calls[host])
 
 
 # -- breaking off and finishing ----------------------------------------------------------------------------------------

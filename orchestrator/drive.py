@@ -136,6 +136,7 @@ class Drive:
         self.round, self.looked = 0, 0.0
         self.is_begun = self.is_paused = False
         self.written = len([name for name in folder.log.names("events") if name.startswith("run-")])
+        self.is_fresh = before is None and not self.written
 
     @property
     def epoch(self) -> int:
@@ -145,7 +146,8 @@ class Drive:
     def to_the_end(self, stop: threading.Event) -> Outcome:
         """Drive until the run is over."""
         experiment = self.loaded.experiment
-        kind = "start" if self.before is None and not self.written else "resume"
+        self._restructure()
+        kind = "start" if self.is_fresh else "resume"
         detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
         self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
         self._begin()
@@ -206,11 +208,7 @@ class Drive:
 
     def _begin(self) -> None:
         """Hand out the plans of all hosts, for what comes after the checkpoint."""
-        commands = self.desk.commands
-        known = [one for one in commands if one.epoch is not None and one.epoch <= self.epoch + 1]
-        self.structure = replayed(structure_of(self.loaded), known)
-        self.plan = self.structure.plan()
-        experiment = self.loaded.experiment
+        commands, experiment = self.desk.commands, self.loaded.experiment
         changes: dict[str, Any] = {
             "epochs": experiment.length,
             "schedule": experiment.schedule,
@@ -229,6 +227,13 @@ class Drive:
         plans = host_plans(self.loaded, self.plan, self.hosts, *place, epoch=self.epoch + 1)
         self.backend.begin(tuple(replace(plan, **changes) for plan in plans), self.deadlines)
 
+    def _restructure(self) -> None:
+        """Find out which islands and channels there are after the checkpoint, and use no more hosts than islands."""
+        known = [one for one in self.desk.commands if one.epoch is not None and one.epoch <= self.epoch + 1]
+        self.structure = replayed(structure_of(self.loaded), known)
+        self.plan = self.structure.plan()
+        self.hosts = min(self.hosts, len(self.structure.living(self.epoch + 1)))
+
     def _limit(self) -> int | None:
         """Give the last epoch before islands or channels change, as commands of before decided."""
         later = [one.epoch for one in self.desk.commands if one.is_accepted and one.verb in STRUCTURE]
@@ -240,9 +245,13 @@ class Drive:
         if lost:
             self.progress.note(f"{reason}; going on from the last checkpoint")
         found, doubts = newest(store, self.folder.name, self.loaded.experiment.seed)
-        roll_back(store, found, keep_run_events=True)
         self.before, self.round = found, self.round + 1
-        self.hosts = self.backend.regroup(lost, min(self.hosts, len(self.structure.living(self.epoch + 1))))
+        self._restructure()
+        try:
+            self.hosts = self.backend.regroup(lost, self.hosts)
+        finally:
+            # Not before: a lost host that was only slow would write to what was cut, until it is ended.
+            roll_back(store, found, keep_run_events=True)
         self.evaluations = evaluations_until(self.folder, found)
         self._begin()
         detail = {"hosts": self.hosts, "epoch": self.epoch, "reason": reason, "lost": list(lost)}
@@ -328,10 +337,12 @@ class Drive:
         facts, islands = self.facts(), len(self.structure.living(self.epoch + 1))
         outcome = Outcome(store=store, status=end.status, reason=end.reason, islands=islands, **facts)
         self.desk.close(f"the run is {end.status}")
-        if end.status == "failed" and not end.settled:
+        if end.status == "failed" and not end.settled and self.is_fresh:
             remove(self.folder)
             raise RunFailedError(end.reason)
         if end.torn:
+            # A lost host that was only slow would write to what is cut, until it is ended.
+            self.backend.close()
             found, _ = newest(store, self.folder.name, self.loaded.experiment.seed)
             roll_back(store, found, keep_run_events=True)
         self._tell(ENDS[end.status], {"reason": end.reason})

@@ -167,9 +167,10 @@ class Report:
 
 @dataclass(frozen=True, slots=True)
 class AskStop:
-    """Ask a host to abandon the epoch in hand."""
+    """Ask a host to abandon the epoch in hand; with ``lost``, also to wait for nobody: what it waits for may not come."""
 
     host: int
+    lost: bool = False
 
 
 @dataclass(frozen=True, slots=True)

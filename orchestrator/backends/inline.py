@@ -66,8 +66,8 @@ class InlineBackend:
                 return HostReady(host)
             case Advance(host, through, horizon, settled):
                 return self._ledger.advanced(instruction, self._hosts[host].advance(through, horizon, settled))
-            case AskStop(host):
-                self._hosts[host].stop()
+            case AskStop(host, lost):
+                self._hosts[host].stop(lost)
                 return None
             case Save(host, epoch):
                 return self._ledger.saved(host, epoch, self._hosts[host].checkpoint(epoch))

@@ -179,10 +179,10 @@ class RayBackend:
                 self._connect()
                 call = self._actors[host].advance.remote(through, horizon, settled)
                 self._expect(call, instruction, self._patience(host, through))
-            case AskStop(host):
+            case AskStop(host, lost):
                 from islands.actor import CONTROL
 
-                self._actors[host].stop.options(concurrency_group=CONTROL).remote(self._plans[host].round)
+                self._actors[host].stop.options(concurrency_group=CONTROL).remote(self._plans[host].round, lost)
             case Save(host, epoch):
                 self._expect(self._actors[host].checkpoint.remote(epoch), instruction, self._deadlines.finish)
             case Steer(host, epoch, intervention):

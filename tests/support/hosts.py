@@ -1,4 +1,7 @@
-"""Several hosts without Ray: each on a thread of its own, posts as direct calls, or late and shuffled ones."""
+"""Several hosts without Ray: each on a thread of its own, posts as direct calls, or late and shuffled ones.
+
+They are a backend, so that the driver itself is at work: a test can lose a host at any event, or break the driver off.
+"""
 
 from __future__ import annotations
 
@@ -7,32 +10,41 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
-from dataclasses import replace
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from dataclasses import dataclass
 from pathlib import Path
 
+from experiments import Silent
+from genome.errors import InputError
 from islands.host import Host
 from islands.orders import Box, HostPlan
 from islands.wire import opened, sealed
-from orchestrator.archipelago import (
+from orchestrator.backends.protocol import Deadlines, Ledger
+from orchestrator.drive import Outcome
+from orchestrator.folder import open_run
+from orchestrator.loading import load_experiment
+from orchestrator.messages import (
     Advance,
-    Archipelago,
     AskStop,
-    Begun,
-    Conclude,
     Event,
     Finish,
+    HostFailed,
     HostFinished,
     HostReady,
-    Report,
+    Order,
+    Save,
     Spawn,
-    decide,
+    Steer,
 )
-from orchestrator.backends.protocol import Ledger
-from orchestrator.experiment import Experiment
-from orchestrator.folder import create
-from orchestrator.loading import load_experiment
-from orchestrator.plan import host_plans, make_plan
+from orchestrator.resume import resumable, resume
+from orchestrator.run import run_experiment
+
+QUICK = ("checkpoint.every=2", "checkpoint.spacing=0", "deadlines.epoch=5")
+"""Settings for tests: a checkpoint of every other epoch, and hosts that wait for 20 s in vain."""
+
+
+class BrokenOffError(Exception):
+    """The driver is killed, as far as a test can."""
 
 
 class Storm:
@@ -64,6 +76,147 @@ class Storm:
         self._thread.join()
 
 
+@dataclass
+class Seat:
+    """A host and its thread."""
+
+    host: Host
+    pool: ThreadPoolExecutor
+    gone: bool = False
+
+
+Meanwhile = Callable[[Event, "ThreadBackend"], None]
+
+
+class ThreadBackend:
+    """Hosts on threads; see the module's docstring.
+
+    Parameters
+    ----------
+    hosts
+        How many.
+    storm
+        With a number, posts come late and shuffled.
+    meanwhile
+        Is called with each event before the driver hears of it.
+    """
+
+    def __init__(self, hosts: int, storm: int | None, meanwhile: Meanwhile) -> None:
+        self._count, self._storm, self._meanwhile = hosts, storm, meanwhile
+        self._weather: Storm | None = None
+        self._plans: tuple[HostPlan, ...] = ()
+        self._seats: list[Seat] = []
+        self._calls: deque[tuple[int, Future[Event | None]]] = deque()
+        self._events: deque[Event] = deque()
+        self._ledger = Ledger()
+        self.rounds = 0
+
+    @property
+    def ledger(self) -> Ledger:
+        return self._ledger
+
+    @property
+    def hosts(self) -> list[Host]:
+        return [seat.host for seat in self._seats]
+
+    def open(self) -> int:
+        return self._count
+
+    def begin(self, plans: tuple[HostPlan, ...], deadlines: Deadlines) -> None:
+        del deadlines
+        self._plans, hosts = plans, []
+        self._weather = Storm(hosts, self._storm) if self._storm is not None else None
+        post = self._weather.post if self._weather else self._directly
+        hosts.extend(Host(plan, post=post) for plan in plans)
+        self._seats = [Seat(host, ThreadPoolExecutor(1)) for host in hosts]
+        self.rounds += 1
+
+    def _directly(self, host: int, packets: Box) -> bool:
+        self._seats[host].host.deliver(packets)
+        return True
+
+    def perform(self, instruction: Order) -> None:
+        seat = self._seats[instruction.host]
+        if seat.gone:  # the driver does not know it yet
+            return
+        if isinstance(instruction, AskStop):
+            seat.host.stop(instruction.lost)
+            return
+        call = seat.pool.submit(self._done, seat.host, instruction)
+        if not isinstance(instruction, Steer):
+            self._calls.append((instruction.host, call))
+
+    def _done(self, host: Host, what: Order) -> Event | None:
+        try:
+            match what:
+                case Spawn():
+                    host.ready()
+                    return HostReady(what.host)
+                case Advance(_, through, horizon, settled):
+                    return self._ledger.advanced(what, host.advance(through, horizon, settled))
+                case Save(number, epoch):
+                    return self._ledger.saved(number, epoch, host.checkpoint(epoch))
+                case Steer(_, epoch, intervention):
+                    host.steer(epoch, intervention)
+                case Finish(number, forms, settled, through):
+                    self._ledger.note(number, through, host.finish(forms, settled, through).summaries)
+                    return HostFinished(number)
+        except Exception as error:  # noqa: BLE001 - as a backend takes whatever a host raises
+            text = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+            return HostFailed(what.host, text, alive=True, part=isinstance(what, Save))
+        return None
+
+    def lose(self, host: int) -> None:
+        """Lose a host: it answers no more; what it is at it may still do, until all begin anew."""
+        self._seats[host].gone = True
+        self._calls = deque(entry for entry in self._calls if entry[0] != host)
+        self._events = deque(event for event in self._events if event.host != host)
+        self._events.append(HostFailed(host, f"host {host} died", alive=False))
+
+    def regroup(self, lost: tuple[int, ...], wanted: int) -> int:
+        """Throw all hosts away; there is room for others in place of those that were lost."""
+        assert lost == tuple(place for place, seat in enumerate(self._seats) if seat.gone)
+        self._sweep()
+        self._ledger.clear()
+        return wanted
+
+    def wait(self, seconds: float) -> Event | None:
+        """Give the next answer; those of one host come in order."""
+        if not self._events and self._calls:
+            wait([call for _, call in self._calls], timeout=seconds, return_when="FIRST_COMPLETED")
+            oldest = {host: (host, call) for host, call in reversed(self._calls)}
+            for entry in [entry for entry in oldest.values() if entry[1].done()]:
+                self._calls.remove(entry)
+                event = entry[1].result()
+                assert event is not None
+                self._events.append(event)
+        if not self._events:
+            return None
+        event = self._events.popleft()
+        if not self._seats[event.host].gone:
+            self._meanwhile(event, self)
+        return event
+
+    def interrupt(self) -> None:
+        for seat in self._seats:
+            seat.host.stop()
+
+    def _sweep(self) -> None:
+        for seat in self._seats:
+            seat.host.stop(lost=True)
+        for seat in self._seats:
+            seat.pool.shutdown()
+        if self._weather is not None:
+            self._weather.close()
+            self._weather = None
+        self._calls.clear()
+        self._events.clear()
+        self._seats = []
+
+    def close(self) -> None:
+        self._sweep()
+
+
 def run_on_threads(
     folder: Path,
     data: Path,
@@ -71,9 +224,9 @@ def run_on_threads(
     *overrides: str,
     storm: int | None = None,
     replay: Path | None = None,
-    meanwhile: Callable[[Event, list[Host]], None] = lambda event, hosts: None,
-) -> tuple[Path, Conclude]:
-    """Run an experiment on so many hosts; give its log and its conclusion.
+    meanwhile: Meanwhile = lambda event, backend: None,
+) -> tuple[Path, Outcome]:
+    """Run an experiment on so many hosts; give its log and what came of it.
 
     Parameters
     ----------
@@ -81,94 +234,26 @@ def run_on_threads(
         Where the run's folder is to stand.
     data
         The experiment.
-    storm
-        With a number, posts come late and shuffled.
+    storm, meanwhile
+        See :class:`ThreadBackend`.
     replay
         The log of a run to repeat.
-    meanwhile
-        Is called after each event.
     """
-    from datetime import UTC, datetime
-
-    loaded = load_experiment(data, overrides)
-    experiment: Experiment = loaded.experiment
-    made = create(folder, f"on-{hosts}", loaded, datetime.now(UTC), {}, explicit=False)
-    changes = {
-        "epochs": experiment.length,
-        "schedule": experiment.schedule,
-        "replay": "" if replay is None else str(replay),
-        "patience": 20.0,
-    }
-    plans = [replace(plan, **changes) for plan in host_plans(loaded, make_plan(loaded), hosts, made.name, made.path)]
-    made_hosts: list[Host] = []
-
-    def directly(host: int, packets: Box) -> bool:
-        made_hosts[host].deliver(packets)
-        return True
-
-    weather = Storm(made_hosts, storm) if storm is not None else None
-    made_hosts.extend(Host(plan, post=weather.post if weather else directly) for plan in plans)
-    try:
-        return made.path / "log", _driven(made_hosts, plans, experiment, meanwhile)
-    finally:
-        if weather is not None:
-            weather.close()
+    loaded = load_experiment(data, (*QUICK, *overrides))
+    backend = ThreadBackend(hosts, storm, meanwhile)
+    before = None if replay is None else open_run(str(replay.parent))
+    outcome = run_experiment(loaded, backend, folder, None, Silent(), before)
+    return outcome.folder / "log", outcome
 
 
-def _answers(calls: deque) -> list[Event]:
-    """Wait for answers; those of one host come in order."""
-    wait([call for _, call in calls], timeout=60, return_when="FIRST_COMPLETED")
-    oldest = {host: (host, call) for host, call in reversed(calls)}
-    done = [entry for entry in oldest.values() if entry[1].done()]
-    for entry in done:
-        calls.remove(entry)
-    return [call.result() for _, call in done]
-
-
-def _driven(
-    hosts: list[Host],
-    plans: Sequence[HostPlan],
-    experiment: Experiment,
-    meanwhile: Callable[[Event, list[Host]], None],
-) -> Conclude:
-    ledger = Ledger()
-    state = Archipelago(len(hosts), experiment.length, experiment.schedule)
-    pools = [ThreadPoolExecutor(1) for _ in plans]
-    events: deque[Event] = deque([Begun()])
-    calls: deque = deque()
-
-    def perform(what: Spawn | Advance | Finish) -> Event:
-        host = hosts[what.host]
-        match what:
-            case Spawn():
-                host.ready()
-                return HostReady(what.host)
-            case Advance(_, through, horizon, settled):
-                return ledger.advanced(what, host.advance(through, horizon, settled))
-            case Finish(_, forms, settled, through):
-                host.finish(forms, settled, through)
-                return HostFinished(what.host)
-
-    try:
-        while True:
-            while not events:
-                assert calls, "the machine waits for nobody"
-                events.extend(_answers(calls))
-            event = events.popleft()
-            state, instructions = decide(state, event)
-            for instruction in instructions:
-                match instruction:
-                    case Conclude():
-                        return instruction
-                    case AskStop(host):
-                        hosts[host].stop()
-                    case Report(epoch):
-                        ledger.summaries(epoch)
-                    case _:
-                        calls.append((instruction.host, pools[instruction.host].submit(perform, instruction)))
-            meanwhile(event, hosts)
-    finally:
-        for host in hosts:
-            host.stop()
-        for pool in pools:
-            pool.shutdown()
+def resume_on_threads(
+    folder: Path,
+    hosts: int,
+    *overrides: str,
+    storm: int | None = None,
+    meanwhile: Meanwhile = lambda event, backend: None,
+) -> tuple[Path, Outcome]:
+    """Go on with the run in a folder, on so many hosts."""
+    run = open_run(str(folder))
+    outcome = resume(run, resumable(run, overrides), ThreadBackend(hosts, storm, meanwhile), Silent())
+    return outcome.folder / "log", outcome
