@@ -50,7 +50,8 @@ from orchestrator.messages import (
     StopAsked,
 )
 
-Phase = Literal["new", "starting", "running", "saving", "finishing", "rewinding", "done"]
+Phase = Literal["new", "starting", "running", "saving", "finishing", "rewinding", "regrouping", "done"]
+"""``rewinding`` while hosts give up what they are at, ``regrouping`` from the order to rewind until it is done."""
 
 CALL_S: Final = 0.25
 """A call holds as many epochs as are expected to fit into this time, at least one."""
@@ -84,7 +85,8 @@ class Archipelago:
     phase
         Where the run stands.
     waiting
-        Hosts that have yet to stand, to write their part of a checkpoint, or to finish, ascending.
+        Hosts that have yet to stand, to write their part of a checkpoint, or to finish, ascending. Each of them answers
+        once, also when nobody needs the answer any more.
     lost
         Hosts that no longer answer, ascending.
     verdict
@@ -98,7 +100,7 @@ class Archipelago:
     saved
         The epoch of the last checkpoint; -1 for none.
     saving
-        That of the checkpoint that hosts are writing, while they go on.
+        That of the checkpoint that hosts are writing, while they go on; ``None`` also when it was given up.
     granted
         The last epoch that any host may have begun.
     limit
@@ -168,13 +170,13 @@ def decide(state: Archipelago, event: Event) -> Step:
             return _spawned(state)
         case HostFailed():
             return _failed(state, event)
-        case Rewound() if state.phase == "rewinding":
+        case Rewound() if state.phase == "regrouping":
             return _rewound(state, event)
         case HostReady(host) | HostFinished(host) | PartSaved(host) | EpochDone(host) | EpochAbandoned(host):
             return _answered(state, host, event)
         case StopAsked() if state.verdict[0] == "finished" and state.phase not in ("new", "saving", "finishing"):
             return _stopping(state)
-        case PauseAsked() if state.phase in ("starting", "running", "rewinding") and not state.paused:
+        case PauseAsked() if state.phase not in ("new", "saving", "finishing") and not state.paused:
             return _go_on(replace(state, paused=True))
         case ResumeAsked() if state.paused:
             return _go_on(replace(state, paused=False))
@@ -206,10 +208,16 @@ def _spawned(state: Archipelago) -> Step:
 
 def _rewound(state: Archipelago, event: Rewound) -> Step:
     """Begin anew from a checkpoint."""
+    # What islands or channels are changed from was saved for it: one that never stands must not be tried for ever.
+    futile = state.losses + 1 if not state.lost and event.epoch < state.saved else state.losses
+    if futile > MOST_LOSSES and state.verdict[0] == "finished":
+        text = f"the checkpoint of epoch {state.saved} did not stand, {futile} times in a row"
+        state = replace(state, verdict=("failed", text))
     state = replace(
-        state, hosts=event.hosts, settled=event.epoch, lost=(), marks=(), stride=1, saving=None, limit=event.limit
+        state, hosts=event.hosts, settled=event.epoch, lost=(), marks=(), stride=1, saving=None, limit=event.limit,
+        done=(event.epoch,) * event.hosts, losses=futile,
     )  # fmt: skip
-    return _spawned(state)
+    return _spawned(state) if state.verdict[0] == "finished" else _end(state)
 
 
 # -- answers -----------------------------------------------------------------------------------------------------------
@@ -236,10 +244,8 @@ def _answered(state: Archipelago, host: int, event: Event) -> Step:
             state = _called_back(state, host, epoch)
             following, instructions = _go_on(state)
             return following, ((*_stops(state), *instructions) if first else instructions)
-        case PartSaved() if state.phase == "rewinding":
-            return _go_on(_heard(state, host))
-        case PartSaved(_, epoch) if epoch == state.saving or (state.phase == "saving" and host in state.waiting):
-            return _part_saved(state, host)
+        case PartSaved(_, epoch) if host in state.waiting and state.saving in (None, epoch):
+            return _part_saved(_heard(state, host))
         case HostReady() if state.phase in ("starting", "rewinding"):
             return _go_on(_heard(state, host))
         case HostFinished() if state.phase in ("finishing", "rewinding"):
@@ -268,11 +274,9 @@ def _settled(state: Archipelago) -> tuple[Archipelago, tuple[Report, ...]]:
     return state, tuple(Report(mark) for mark in settled)
 
 
-def _part_saved(state: Archipelago, host: int) -> Step:
-    state = _heard(state, host)
-    if state.waiting or state.phase == "rewinding":
+def _part_saved(state: Archipelago) -> Step:
+    if state.waiting or state.saving is None:
         return _go_on(state)
-    assert state.saving is not None
     seal = Seal(state.saving)
     following, instructions = _go_on(replace(state, saved=state.saving, saving=None))
     return following, (seal, *instructions)
@@ -288,7 +292,7 @@ def _go_on(state: Archipelago) -> Step:
             return state, ()
         state = replace(state, phase="running")
     if state.phase == "rewinding":
-        return (state, ()) if _busy(state) else (state, (Rewind(state.lost, state.trouble),))
+        return (state, ()) if _busy(state) else _regrouped(state)
     if state.phase == "finishing":
         return (state, ()) if state.waiting else _end(state)
     if state.phase not in ("running", "saving"):
@@ -358,6 +362,13 @@ def _marked(state: Archipelago, last: int) -> Archipelago:
     return replace(state, marks=(*state.marks, mark), stride=stride)
 
 
+def _regrouped(state: Archipelago) -> Step:
+    """Nobody is at anything any more: begin anew, or end where that is wanted by now."""
+    if state.verdict[0] != "finished":
+        return _end(state)
+    return replace(state, phase="regrouping"), (Rewind(state.lost, state.trouble),)
+
+
 def _horizon(state: Archipelago, through: int) -> int:
     if state.schedule == "barrier" or state.hosts == 1:
         return through
@@ -369,13 +380,13 @@ def _horizon(state: Archipelago, through: int) -> int:
 
 def _failed(state: Archipelago, event: HostFailed) -> Step:
     """Begin anew without a host that is lost; what a host raises, it would raise again."""
-    if event.host >= state.hosts or event.host in state.lost:
+    if event.host >= state.hosts or event.host in state.lost or state.phase == "regrouping":
         return state, ()
     if state.phase == "new":
         return _end(replace(state, verdict=("failed", event.reason)))
     if event.alive:
-        state = _called_back(state, event.host, event.epoch) if state.calls[event.host] else state
-        state = _heard(state, event.host)
+        is_call = bool(state.calls[event.host]) and not event.part
+        state = _called_back(state, event.host, event.epoch) if is_call else _heard(state, event.host)
         return _go_on(state) if state.phase == "rewinding" else _break_off(state, event.reason)
     before = state
     state = _heard(state, event.host)
@@ -413,7 +424,8 @@ def _stopping(state: Archipelago) -> Step:
     if state.phase == "starting":
         return _end(state)
     if state.phase == "rewinding":
-        return _end(replace(state, lost=state.lost or tuple(range(state.hosts))))
+        # Hosts were asked to give up already, and the log must not be cut while they write to it.
+        return _go_on(state)
     following, instructions = _go_on(state)
     return following, (*_stops(state), *instructions)
 
@@ -423,9 +435,9 @@ def _break_off(state: Archipelago, reason: str) -> Step:
     first = state.verdict[0] != "failed"
     if first:
         state = replace(state, verdict=("failed", reason))
-    if state.phase in ("starting", "rewinding"):
+    if state.phase == "starting":
         return _end(state)
-    state = replace(state, saving=None, waiting=() if state.phase == "running" else state.waiting)
+    state = replace(state, saving=None)
     following, instructions = _go_on(state)
     return following, ((*_stops(state), *instructions) if first else instructions)
 
@@ -452,5 +464,5 @@ def _end(state: Archipelago) -> Step:
     status, reason = state.verdict
     through = _through(state) if state.done else -1
     report = (Report(through),) if through > state.settled and state.phase == "finishing" else ()
-    end = Conclude(status, reason, through >= 0, torn=bool(state.lost))
+    end = Conclude(status, reason, max(through, state.reached) >= 0, torn=bool(state.lost))
     return replace(state, phase="done", waiting=()), (*report, end)

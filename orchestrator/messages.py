@@ -60,13 +60,15 @@ class HostFinished:
 class HostFailed:
     """A host raised an error, died, or did not answer within its deadline.
 
-    ``epoch`` is the last that all of its islands have finished, where the host could still say so.
+    ``epoch`` is the last that all of its islands have finished, where the host could still say so; ``part`` is set when
+    it was its part of a checkpoint that it could not write.
     """
 
     host: int
     reason: str
     alive: bool
     epoch: int = -1
+    part: bool = False
 
 
 @dataclass(frozen=True, slots=True)

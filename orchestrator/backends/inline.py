@@ -49,13 +49,13 @@ class InlineBackend:
 
     def perform(self, instruction: Order) -> None:
         """Do it now and keep the event for ``wait``."""
-        host = instruction.host
+        host, part = instruction.host, isinstance(instruction, Save)
         try:
             event = self._done(instruction)
         except InputError as error:
-            event = HostFailed(host, str(error), alive=True)
+            event = HostFailed(host, str(error), alive=True, part=part)
         except Exception as error:  # noqa: BLE001 - whatever a host raises ends the run with a message
-            event = HostFailed(host, f"{type(error).__name__}: {error}", alive=True)
+            event = HostFailed(host, f"{type(error).__name__}: {error}", alive=True, part=part)
         if event is not None:
             self._events.append(event)
 

@@ -292,7 +292,8 @@ class RayBackend:
         except ray.exceptions.RayTaskError as error:
             cause = error.cause
             text = str(cause) if isinstance(cause, InputError) else f"{type(cause).__name__}: {cause}"
-            return HostFailed(host, f"host {host} could not {_doing(pending.what)}: {text}", alive=True)
+            part = isinstance(pending.what, Save)
+            return HostFailed(host, f"host {host} could not {_doing(pending.what)}: {text}", alive=True, part=part)
         except ray.exceptions.RayActorError as error:
             text = f"host {host} died and could not {_doing(pending.what)} ({_one_line(error)})"
             return HostFailed(host, text, alive=False)
