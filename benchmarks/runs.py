@@ -7,6 +7,8 @@ import os
 import subprocess
 import sys
 import threading
+import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -49,3 +51,40 @@ def _watch(pid: int, peaks: list[float], over: threading.Event) -> None:
             peaks[1] = max(peaks[1], sum(host.memory_info().rss for host in hosts) / 1e6)
         except psutil.Error:
             continue
+
+
+def stolen() -> float:
+    """Give the seconds that a virtual machine's CPUs were taken away since it stands; 0 where nothing tells."""
+    try:
+        return int(Path("/proc/stat").read_text(encoding="ascii").split("\n", 1)[0].split()[8]) / os.sysconf(
+            "SC_CLK_TCK"
+        )
+    except (OSError, IndexError, ValueError):
+        return 0.0
+
+
+def undisturbed(measure: Callable[[int], float], rounds: int, most: int = 8, share: float = 0.02) -> list[float]:
+    """Measure some times, and once more for each time that the machine's CPUs were taken away meanwhile.
+
+    Parameters
+    ----------
+    measure
+        Gives seconds; is given the turn, from 0.
+    rounds
+        How many times are wanted.
+    most
+        After so many all that there are have to do.
+    share
+        Of the two cores' time, how much may be taken away.
+    """
+    quiet: list[float] = []
+    noisy: list[float] = []
+    for turn in range(most):
+        began, before = time.perf_counter(), stolen()
+        seconds = measure(turn)
+        lost = (stolen() - before) / (2 * (time.perf_counter() - began))
+        (quiet if lost <= share else noisy).append(seconds)
+        if len(quiet) == rounds:
+            return quiet
+    print(f"(the machine's CPUs were taken away in {len(noisy)} of {most} rounds)")
+    return quiet or noisy

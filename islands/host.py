@@ -32,6 +32,7 @@ from islands.migration.adapters import adapters_into
 from islands.migration.channel import Packet
 from islands.migration.routes import Routes
 from islands.orders import (
+    NOWHERE,
     Advanced,
     Box,
     Finished,
@@ -285,7 +286,7 @@ class Host:
             host = placement[packet.target]
             if host == here:
                 self._agenda.put(packet)
-            elif host >= 0:
+            elif host != NOWHERE:
                 self._gathered.setdefault(host, []).append(packet)
 
     def _collect(self) -> None:

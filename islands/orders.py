@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from islands.checkpoint import Part
 from islands.interventions.intervention import Intervention
@@ -20,6 +20,10 @@ Box = tuple[Packet, ...]
 
 Post = Callable[[int, Box], bool]
 """Hands packets to another host; ``False`` when so many are on their way to it that these have to wait."""
+
+
+NOWHERE: Final = -1
+"""In place of a host, for islands that are not there."""
 
 
 class Start(NamedTuple):
@@ -93,6 +97,15 @@ class HostPlan:
     start: Start | None = None
     interventions: tuple[tuple[int, Intervention], ...] = ()
     round: int = 0
+
+    @property
+    def neighbours(self) -> tuple[int, ...]:
+        """The other hosts that islands of this one may send to or hear from, ascending; each is a neighbour of them."""
+        found = {self.placement[number] for edge in self.edges for number in (edge.source, edge.target)}
+        for channel in self.redrawn:
+            homes = {self.placement[number] for number, _ in channel.members}
+            found |= homes if self.host in homes else set()
+        return tuple(sorted(host for host in found if host not in (self.host, NOWHERE)))
 
 
 class Advanced(NamedTuple):

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
 
 from genome.errors import InputError
 from islands.migration.channel import Edge
 from islands.migration.routes import Redrawn
-from islands.orders import HostPlan
+from islands.orders import NOWHERE, HostPlan
 from islands.spec import IslandSpec
 from islands.store import Anywhere, Store
 from orchestrator.loading import Loaded
 from orchestrator.wiring import wire
-
-NOWHERE: Final = -1
-"""In place of a host, for islands that are not there."""
 
 
 @dataclass(frozen=True, slots=True)

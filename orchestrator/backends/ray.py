@@ -192,13 +192,13 @@ class RayBackend:
                 self._expect(call, instruction, self._deadlines.finish)
 
     def _connect(self) -> None:
-        """Let every host know the others, before the first of them steps."""
+        """Let every host know those that it exchanges with, before the first of them steps."""
         if self._connected:
             return
         self._connected = True
         everyone = {host: (actor, self._addresses[host]) for host, actor in self._actors.items()}
         for host, actor in self._actors.items():
-            actor.connect.remote({other: peer for other, peer in everyone.items() if other != host})
+            actor.connect.remote({other: everyone[other] for other in self._plans[host].neighbours})
 
     def _patience(self, host: int, through: int) -> float:
         """Give how long a call may take; calls of several epochs are made where these took a moment together."""
