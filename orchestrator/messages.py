@@ -167,7 +167,7 @@ class Report:
 
 @dataclass(frozen=True, slots=True)
 class AskStop:
-    """Ask a host to abandon the epoch in hand; with ``lost``, also to wait for nobody: what it lacks may never come."""
+    """Ask a host to abandon the epoch in hand; with ``lost``, also to wait no more: what it waits for may not come."""
 
     host: int
     lost: bool = False
