@@ -144,6 +144,11 @@ class Host:
     def _restore(self, start: Start) -> None:
         """Go on from a checkpoint."""
         known = {number for part in start.parts for number in part.islands}
+        for number, island in self._islands.items():
+            # It would wait for ever for packets that nobody sent.
+            if number not in known and island.spec.since != start.epoch + 1:
+                expected = f"a state of the island {island.spec.name} in the checkpoint of epoch {start.epoch}"
+                raise InputError(str(Store.open(self._plan.folder)), expected, "none", "the experiment was changed")
         here = [island for number, island in self._islands.items() if number in known]
         restored = read_parts(Store.open(self._plan.folder), start.parts, here)
         self._flushed = self._told = start.epoch

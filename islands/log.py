@@ -181,7 +181,14 @@ def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> LogF
 
     dictionary, split = stored(table_name)
     content = pa.BufferOutputStream()
-    pq.write_table(table, content, compression="zstd", use_dictionary=dictionary, use_byte_stream_split=split)
+    pq.write_table(
+        table,
+        content,
+        compression="zstd",
+        use_dictionary=dictionary,
+        use_byte_stream_split=split,
+        write_page_checksum=True,
+    )
     name = f"{table_name}/{stem}.parquet"
     written = content.getvalue().to_pybytes()
     Store.open(folder).write(name, written, staging=".tmp")

@@ -24,6 +24,9 @@ from islands.store import Store, StoreError
 
 NAME: Final = re.compile(r"e(\d{6,})\.json")
 MAGIC: Final = b"PAR1"
+MOST_READ: Final = 256 * 2**20
+"""Bytes of the log, the newest first, that are read to see whether they are whole before a run goes on."""
+
 LEAST: Final = 12
 """Bytes of a Parquet file at least: its magic number twice, and the length of its footer."""
 
@@ -229,8 +232,8 @@ def read(store: Store, epoch: int) -> Checkpoint:
 def check(store: Store, checkpoint: Checkpoint) -> None:
     """Check that all parts and log files of a checkpoint are there, and whole.
 
-    Parts are read and hashed. Of log files sizes are compared, and on a local disk both ends are looked at: they were
-    moved there whole, so that what may have happened to them is that they were lost, or cut by a disk that lied.
+    Parts are read and hashed. Of log files sizes are compared; on a local disk both ends are looked at, and the newest
+    are read with the checksums of their pages, up to ``MOST_READ`` bytes.
 
     Raises
     ------
@@ -252,6 +255,30 @@ def check(store: Store, checkpoint: Checkpoint) -> None:
             raise InputError(f"log/{name}", expected, f"{sizes[name]} bytes")
         if log.local is not None and not _has_both_ends(log.local / name, size):
             raise InputError(f"log/{name}", "a whole Parquet file", "one that lacks its beginning or its end")
+    if log.local is not None:
+        _read_newest(log.local, sorted(dict(checkpoint.log), key=_last_epoch, reverse=True), dict(checkpoint.log))
+
+
+def _last_epoch(name: str) -> tuple[str, str]:
+    """Sort the log's files by the last epoch in them."""
+    return (name.rpartition("/")[2][8:14], name)
+
+
+def _read_newest(log: Path, names: Iterable[str], sizes: Mapping[str, int]) -> None:
+    """Read log files whole, with the checksums of their pages, as far as a bound allows."""
+    import pyarrow.parquet as pq
+
+    budget = MOST_READ
+    for name in names:
+        budget -= sizes[name]
+        if budget < 0:
+            return
+        try:
+            with pq.ParquetFile(log / name, page_checksum_verification=True) as file:
+                file.read()
+        except (OSError, ValueError) as error:
+            got = str(error).splitlines()[0] if str(error) else type(error).__name__
+            raise InputError(f"log/{name}", "a whole Parquet file", got) from None
 
 
 def run_events(number: int) -> str:

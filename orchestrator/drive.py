@@ -27,6 +27,7 @@ from orchestrator.cutting import prune, roll_back
 from orchestrator.folder import RunFolder, on_disk, remove
 from orchestrator.lease import Lease
 from orchestrator.loading import Loaded, load_experiment
+from orchestrator.past import facts_of
 from orchestrator.plan import Plan, host_plans
 from orchestrator.progress import Progress
 from orchestrator.query import ask
@@ -270,6 +271,7 @@ class Drive:
             log=log_of(self.before, [one.files for one in saved]),
             events=self.written,
             commands=len(self.desk.commands),
+            facts=facts_of(self.loaded, self.desk.commands),
         )
         complete(self.folder.store, checkpoint)
         prune(self.folder.store, self.loaded.experiment.checkpoint.keep)

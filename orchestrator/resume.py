@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
 
 from genome.errors import InputError
 from orchestrator.backends.protocol import Backend
@@ -12,11 +11,9 @@ from orchestrator.folder import RunFolder
 from orchestrator.lease import is_driven
 from orchestrator.loading import Loaded, load_experiment
 from orchestrator.overrides import parse_override
+from orchestrator.past import FREE
 from orchestrator.progress import Progress
 from orchestrator.run import resume_experiment
-
-FREE: Final = ("generations", "epochs", "hosts", "backend", "deadlines", "log", "checkpoint", "forms")
-"""Settings that may change: what happened until now does not hang on them."""
 
 
 def resumable(folder: RunFolder, overrides: Sequence[str]) -> Loaded:
@@ -32,6 +29,11 @@ def resumable(folder: RunFolder, overrides: Sequence[str]) -> Loaded:
         if key not in FREE:
             got = f"'{key}', which the run has been bred with"
             raise InputError(f"--set {override}", f"a setting of {', '.join(FREE)}", got, "start a new run with it")
+    name = folder.manifest().get("run")
+    if name != folder.name:
+        got = f"'{folder.name}'"
+        remedy = "its log and checkpoints have that name: give the folder its name back"
+        raise InputError(str(folder.store), f"the folder of the run '{name}' under its own name", got, remedy)
     if is_driven(folder.store):
         got = "one that another process drives"
         raise InputError(str(folder.store), "a run that nobody drives", got, "wait for it, or steer it")

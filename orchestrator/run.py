@@ -25,10 +25,12 @@ from orchestrator.folder import MANIFEST, RunFolder, Runs, choose_name, create, 
 from orchestrator.keeping import EXPERIMENT, as_yaml
 from orchestrator.lease import Lease
 from orchestrator.loading import Loaded
+from orchestrator.past import refuse_changed
 from orchestrator.plan import Plan, make_plan
 from orchestrator.progress import Progress
 from orchestrator.signals import Signals
 from orchestrator.steering.journal import FILE as COMMANDS
+from orchestrator.steering.journal import read_commands
 
 
 def seconds_of(plan: Plan) -> dict[str, float]:
@@ -194,6 +196,10 @@ def _going_on(
     experiment = loaded.experiment
     found, doubts = newest(folder.store, folder.name, experiment.seed)
     epoch = -1 if found is None else found.epoch
+    # Before anything is cut: a history that cannot be read, or is another, leaves the run as it was.
+    commands = read_commands(folder.store)
+    if found is not None:
+        refuse_changed(found, folder, loaded, commands)
     if epoch > experiment.length:
         got = f"{experiment.length}, and a checkpoint of epoch {epoch}"
         raise InputError("--set epochs", "at least as many epochs as the run has", got, "ask for more")

@@ -35,8 +35,8 @@ ISLANDS = """
 def standing(folder: RunFolder) -> dict[str, Any]:
     """Give a run's status, islands, best so far, and rates.
 
-    ``generations`` counts those that every island of the log has finished, ``evaluations`` all scorings in the log,
-    and ``evaluations_per_s`` compares these with the time that the islands spent on them, all islands together.
+    ``generations`` counts those of islands that were there from the beginning to now, ``evaluations`` all scorings in
+    the log, and ``evaluations_per_s`` compares these with the time that the islands spent on them, all together.
     ``alive`` tells whether the process of a run that is marked as running is there; it is ``None`` on other machines.
     """
     manifest = folder.manifest()
@@ -51,7 +51,7 @@ def standing(folder: RunFolder) -> dict[str, Any]:
         "error": manifest.get("error", ""),
         "started": manifest.get("started"),
         "ended": manifest.get("ended"),
-        "generations": min((int(row["generation"]) for row in islands), default=0),
+        "generations": max((int(row["generation"]) for row in islands), default=0),
         "evaluations": evaluations,
         "evaluations_per_s": round(evaluations / busy, 3) if busy > 0 else None,
         "best": {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None,

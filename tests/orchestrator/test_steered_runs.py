@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from experiments import Silent, bits, write
+from genome.errors import InputError
 from islands.store import Store
 from orchestrator.digest import digest
 from orchestrator.folder import RunFolder, open_run
@@ -162,3 +163,57 @@ def test_a_command_that_comes_in_the_last_epoch_is_too_late(tmp_path, verb) -> N
         [(False, "the run is finished")],
         [(False, "the run ends with epoch 4, and no earlier one can still be changed")],
     )
+
+
+def test_a_run_is_not_gone_on_with_when_its_past_was_changed(tmp_path) -> None:
+    """Nothing is cut and the manifest stays as it was."""
+    folder, _, _ = steered(tmp_path, {**ALL, 17: [Request("stop", {})]})
+    before = (digest(folder.log), folder.manifest())
+    path = folder.store.local
+
+    def go_on() -> str:
+        loaded = resumable(folder, ("epochs=22",))
+        return resume(folder, loaded, make_backend(loaded, None), Silent()).status
+
+    def refused(expected: str) -> None:
+        with pytest.raises(InputError, match=expected):
+            go_on()
+        assert (digest(folder.log), folder.manifest()) == before
+
+    for name, change, expected in (
+        ("commands.jsonl", lambda text: "", "expected the 14 commands that .* was steered by, got 0 commands"),
+        ("commands.jsonl", lambda text: text.replace("2.5", "3.5"), "was steered by, got others"),
+        ("commands.jsonl", lambda text: "rubbish\n", "expected a line of JSON"),
+        ("experiment.yaml", lambda text: text.replace("population: 12", "population: 11"), "got other islands, chan"),
+        ("experiment.yaml", lambda text: text.replace("seed: 7", "seed: 8"), "expected a checkpoint of the run bits"),
+    ):
+        whole = (path / name).read_text(encoding="utf-8")
+        assert change(whole) != whole
+        (path / name).write_text(change(whole), encoding="utf-8")
+        refused(expected)
+        (path / name).write_text(whole, encoding="utf-8")
+    moved = path.with_name("renamed")
+    path.rename(moved)
+    with pytest.raises(InputError, match="expected the folder of the run 'bits' under its own name, got 'renamed'"):
+        resumable(open_run(str(moved)), ("epochs=22",))
+    moved.rename(path)
+    assert go_on() == "finished"
+
+
+def test_a_log_file_that_is_damaged_inside_sends_a_run_back_to_a_checkpoint_before_it(tmp_path) -> None:
+    folder, _, _ = steered(tmp_path, {17: [Request("stop", {})]})
+    path = folder.store.local
+    whole = digest(folder.log)
+    newest = max((path / "log" / "individuals").glob("e*.parquet"), key=lambda one: one.name[8:14])
+    content = bytearray(newest.read_bytes())
+    content[len(content) // 3] ^= 0xFF
+    newest.write_bytes(bytes(content))
+    noted = Helmsman({})
+    loaded = resumable(folder, ())
+    assert resume(folder, loaded, make_backend(loaded, None), noted).status == "finished"
+    assert any("passed over: log/individuals" in note for note in noted.notes)
+    other = tmp_path / "other"
+    other.mkdir()
+    undisturbed, _, _ = steered(other, {})
+    assert digest(open_run(str(path)).log) == digest(undisturbed.log)
+    assert whole[1] < digest(undisturbed.log)[1]
