@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 RUN_READY := $(VENV)/.ready-run
 TEST_READY := $(VENV)/.ready-test
 
-.PHONY: run test lint bench peers lock clean help
+.PHONY: run test torture lint bench peers lock clean help
 
 help:            ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 18
@@ -23,6 +23,9 @@ lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
 	@$(BIN)/ruff format --check
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
+
+torture: $(TEST_READY)  ## the fault suite whole, and its table (minutes)
+	@$(BIN)/python -m pytest -q tests/torture -m "torture or ray"
 
 bench: $(TEST_READY)  ## benchmarks, as ratios against peers
 	@$(BIN)/python -m benchmarks
