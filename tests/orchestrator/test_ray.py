@@ -21,6 +21,7 @@ from orchestrator.backends import cluster
 from orchestrator.backends.cluster import HOSTS_PER_CPU, hosts_for, machine_cpus
 from orchestrator.backends.protocol import RunFailedError
 from orchestrator.digest import digest
+from orchestrator.query import ask
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -170,16 +171,25 @@ def test_a_signal_to_the_whole_group_stops_cleanly(tmp_path, clean, number) -> N
 
 
 @pytest.mark.ray
-def test_a_host_that_dies_fails_the_run_with_its_name(tmp_path, clean) -> None:
-    process = start(tmp_path, slow())
+def test_a_host_that_dies_is_replaced_and_the_log_is_that_of_an_undisturbed_run(tmp_path, clean) -> None:
+    data = slow()
+    data["epochs"] = 12
+    process = start(tmp_path, data)
     until_settled(tmp_path, process)
     hosts = [child for child in psutil.Process(process.pid).children(recursive=True) if _holds_islands(child)]
     assert hosts
     hosts[0].kill()
-    told, err = ended(process, 1)
-    assert told["status"] == "failed"
-    assert "died and could not finish epoch" in err
-    assert json.loads((tmp_path / "runs/bits/manifest.json").read_text(encoding="utf-8"))["status"] == "failed"
+    told, err = ended(process, 0)
+    assert told["status"] == "finished"
+    assert "died and could not" in err
+    assert "going on from the last checkpoint" in err
+    log = tmp_path / "runs/bits/log"
+    ((lost,),) = ask(log, "select detail->'lost' from events where kind = 'recovery'").rows
+    assert len(json.loads(lost)) == 1
+    other = tmp_path / "undisturbed"
+    other.mkdir()
+    data["defaults"].pop("growth")
+    assert digest(log) == digest(run(other, {**data, "backend": "inline"}).folder / "log")
 
 
 def _holds_islands(process: psutil.Process) -> bool:

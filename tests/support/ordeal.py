@@ -16,12 +16,12 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import psutil
+from traps import PLACE, Trap
 
 from experiments import bits, write
 from islands.store import Store
 from orchestrator.digest import digest
 from orchestrator.query import ask
-from traps import PLACE, Trap
 
 ROOT = Path(__file__).resolve().parents[2]
 DEADLINE_S = 120.0

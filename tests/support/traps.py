@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from bits import BitsBiology, BitsGenome, BitsGrowth, BitsKind
+
 from growth.protocol import Clock
 from islands.spec import IslandSpec
 

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import psutil
 import pytest
-
 from ordeal import belongs
 
 HERE = Path(__file__).parent
