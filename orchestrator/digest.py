@@ -12,9 +12,11 @@ import json
 from collections.abc import Iterator
 from typing import Final
 
+from genome.errors import InputError
 from islands.schemas import CLOCKED, columns
 from islands.store import Anywhere, Store
 
+SPOILT: Final = "the file was damaged after it was written: take a copy of it, or replay the run"
 DIGESTED: Final = ("individuals", "evaluations", "generations", "migrations")
 
 
@@ -48,9 +50,14 @@ def _lines(log: Store, table: str) -> Iterator[bytes]:
     for name in log.names(table):
         if not name.endswith(".parquet"):
             continue
-        with pq.ParquetFile(pa.BufferReader(log.read(f"{table}/{name}"))) as file:
-            for batch in file.iter_batches(columns=kept):
-                lists = [batch.column(name).to_pylist() for name in kept]
-                for row in zip(*lists, strict=True):
-                    text = json.dumps([table, *row], separators=(",", ":"), allow_nan=False)
-                    yield text.encode()
+        content = pa.BufferReader(log.read(f"{table}/{name}"))
+        try:
+            read = pq.read_table(content, columns=kept, use_threads=False)
+        except (pa.ArrowException, OSError) as error:
+            got = str(error).strip().partition("\n")[0]
+            raise InputError(f"log/{table}/{name}", "a Parquet file that can be read", got, SPOILT) from None
+        for batch in read.to_batches():
+            lists = [batch.column(name).to_pylist() for name in kept]
+            for row in zip(*lists, strict=True):
+                text = json.dumps([table, *row], separators=(",", ":"), allow_nan=False)
+                yield text.encode()

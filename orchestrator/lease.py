@@ -21,6 +21,9 @@ LOCK: Final = ".lock"
 FILE: Final = "lease.json"
 RENEWED_S: Final = 10.0
 STALE_S: Final = 45.0
+LOOKS: Final = 3
+LOOK_S: Final = 0.1
+"""The lock is tried so often, with so many seconds in between: who only looks whether a run is driven has it, too."""
 
 
 @final
@@ -68,11 +71,22 @@ class Lease:
 
 
 def is_driven(store: Store) -> bool:
-    """Tell whether a process drives the run in this folder."""
+    """Tell whether a process drives the run in this folder, without touching it."""
+    if store.local is None:
+        try:
+            _refuse_fresh(store)
+        except InputError:
+            return True
+        return False
+    import fcntl
+
     try:
-        Lease(store).release()
-    except InputError:
+        with (store.local / LOCK).open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
         return True
+    except OSError:
+        return False
     return False
 
 
@@ -85,12 +99,15 @@ def _locked(store: Store) -> Any:  # noqa: ANN401 - a file
     except OSError as error:
         got = (error.strerror or str(error)).lower()
         raise InputError(str(store), "a run's folder that can be written to", got) from None
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        file.close()
-        raise _taken(store, "another process drives it") from None
-    return file
+    for _ in range(LOOKS):
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            time.sleep(LOOK_S)
+        else:
+            return file
+    file.close()
+    raise _taken(store, "another process drives it")
 
 
 def _refuse_fresh(store: Store) -> None:
@@ -98,10 +115,22 @@ def _refuse_fresh(store: Store) -> None:
         told = json.loads(store.read(FILE))
         age = time.time() - float(told["time"])
         who = f"process {told['process']} on {told['machine']} drives it"
+        gone = told.get("machine") == platform.node() and not _is_there(told["process"])
     except (FileNotFoundError, ValueError, KeyError, TypeError):
         return
-    if age < STALE_S:
+    if age < STALE_S and not gone:
         raise _taken(store, f"{who}, heard of {max(age, 0):.0f} s ago")
+
+
+def _is_there(process: int) -> bool:
+    """Tell whether a process of this machine lives; one of somebody else's does."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _taken(store: Store, got: str) -> InputError:

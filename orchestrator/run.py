@@ -241,7 +241,7 @@ def driven(folder: RunFolder, signals: Signals, make: Callable[[Lease], Drive], 
             with contextlib.suppress(StoreError):  # what the run died of may be its store
                 _conclude_badly(folder, drive, error)
         if isinstance(error, StoreError):
-            raise RunFailedError(str(error)) from None
+            raise RunFailedError(f"{error}; go on then with: atoll resume {folder.store}") from None
         raise
     finally:
         with contextlib.suppress(StoreError):

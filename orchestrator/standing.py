@@ -7,6 +7,7 @@ import platform
 from typing import Any, Final
 
 from orchestrator.folder import RunFolder
+from orchestrator.lease import is_driven
 from orchestrator.query import as_rows, ask
 from orchestrator.regrow import best
 
@@ -35,11 +36,12 @@ ISLANDS = """
 def standing(folder: RunFolder) -> dict[str, Any]:
     """Give a run's status, islands, best so far, and rates.
 
-    ``generations`` counts those of islands that were there from the beginning to now, ``evaluations`` all scorings in
-    the log, and ``evaluations_per_s`` compares these with the time that the islands spent on them, all together.
-    ``alive`` tells whether the process of a run that is marked as running is there; it is ``None`` on other machines.
+    ``generations`` counts those of islands that were there from the beginning to now, ``evaluations`` all scorings in the log,
+    and ``evaluations_per_s`` compares these with the time that the islands spent on them, all islands together.
+    ``alive`` tells whether a process drives a run that is marked as going on; it is ``None`` for one that has ended.
     """
     manifest = folder.manifest()
+    going = is_driven(folder.store) if manifest.get("status") in GOING else None
     islands = as_rows(ask(folder.log, ISLANDS))
     top = best(folder, 1)
     evaluations = sum(int(row["evaluations"]) for row in islands)
@@ -47,7 +49,7 @@ def standing(folder: RunFolder) -> dict[str, Any]:
     return {
         "run": folder.name,
         "status": manifest.get("status"),
-        "alive": alive(manifest),
+        "alive": going,
         "error": manifest.get("error", ""),
         "started": manifest.get("started"),
         "ended": manifest.get("ended"),

@@ -104,6 +104,22 @@ def send_home_helpers() -> None:
             getattr(node, name)(check_alive=False)
 
 
+def hush() -> None:
+    """Keep Ray's notices of processes that died from the terminal: of a host that did, Atoll tells in its own words.
+
+    They come on the driver's stdout, ten lines for each, whether or not logs are to go there; Ray has no setting for
+    them. A Ray that prints them in another way is left to do so.
+    """
+    import ray
+
+    if hasattr(ray._private.worker, "print_to_stdstream"):
+        ray._private.worker.print_to_stdstream = _say_nothing
+
+
+def _say_nothing(data: object, ignore_prefix: object = None) -> None:
+    del data, ignore_prefix
+
+
 def check_address(address: str) -> None:
     """Refuse what is no address of a cluster that a driver can join.
 

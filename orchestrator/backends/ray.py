@@ -19,7 +19,7 @@ from typing import Any, Final, final
 from genome.errors import InputError
 from islands.orders import HostPlan, Step
 from orchestrator.backends.apart import sessions_of_their_own
-from orchestrator.backends.cluster import hosts_for, machine_cpus, reach, send_home_helpers, settle_environment
+from orchestrator.backends.cluster import hosts_for, hush, machine_cpus, reach, send_home_helpers, settle_environment
 from orchestrator.backends.protocol import Deadlines, Ledger, RunFailedError
 from orchestrator.messages import (
     Advance,
@@ -43,6 +43,9 @@ PING_S: Final = 5.0
 
 ROOM_S: Final = 10.0
 """A CPU of a host that was ended is free again within this time, unless its machine is gone."""
+
+MOST_NAMED: Final = 3
+"""Islands of a host that died which are named."""
 
 ANSWER_S: Final = 5.0
 """A host that is asked what it is at says so within this time, however busy it is, unless it hangs for good."""
@@ -126,6 +129,7 @@ class RayBackend:
             "object_store_memory": OBJECT_STORE_BYTES,
         }
         self._opened = True
+        hush()
         try:
             with sessions_of_their_own():
                 ray.init(**quiet, **(local if self._address is None else {"address": self._address}))
@@ -295,7 +299,7 @@ class RayBackend:
             part = isinstance(pending.what, Save)
             return HostFailed(host, f"host {host} could not {_doing(pending.what)}: {text}", alive=True, part=part)
         except ray.exceptions.RayActorError as error:
-            text = f"host {host} died and could not {_doing(pending.what)} ({_one_line(error)})"
+            text = f"host {host} died and could not {_doing(pending.what)} ({_one_line(error)}{self._holding(host)})"
             return HostFailed(host, text, alive=False)
         except ray.exceptions.RayError as error:
             return HostFailed(host, f"host {host} did not {_doing(pending.what)}: {_one_line(error)}", alive=False)
@@ -313,6 +317,12 @@ class RayBackend:
             case Finish():
                 self._ledger.note(host, pending.what.through, value.summaries)
                 return HostFinished(host)
+
+    def _holding(self, host: int) -> str:
+        """Name some of a host's islands: what kills it may be one of them."""
+        names = [spec.name for spec in self._plans[host].islands]
+        more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
+        return f"; it held {', '.join(names[:MOST_NAMED])}{more}"
 
     def regroup(self, lost: tuple[int, ...], wanted: int) -> int:
         """End the actors that are lost, and give how many hosts there is room for.

@@ -105,7 +105,7 @@ def conclude(outcome: Outcome, *, as_json: bool) -> None:
         _tell(outcome.store, outcome.status, outcome.best)
         click.echo(f"{outcome.evaluations} evaluations in {outcome.wall_s:.1f} s")
     if outcome.status == "failed":
-        raise Complaint(outcome.reason, 1)
+        raise Complaint(f"{outcome.reason}; go on with: {_called()} resume {_shown(outcome.store)}", 1)
     if outcome.status == "stopped":
         raise click.exceptions.Exit(130)
 

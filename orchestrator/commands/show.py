@@ -21,7 +21,8 @@ def command(run: str, as_json: bool) -> None:
     if as_json:
         emit(found)
         return
-    click.echo(f"{found['run']}: {found['status']}" + ("" if found["alive"] is not False else " (its process is gone)"))
+    gone = f" (its process is gone; go on with: atoll resume {run})" if found["alive"] is False else ""
+    click.echo(f"{found['run']}: {found['status']}{gone}")
     if found["error"]:
         click.echo(f"reason: {found['error']}")
     rate = found["evaluations_per_s"]

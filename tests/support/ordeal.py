@@ -25,6 +25,7 @@ from orchestrator.query import ask
 
 ROOT = Path(__file__).resolve().parents[2]
 DEADLINE_S = 120.0
+RAY = ("--set", "backend=ray", "--set", "hosts=2")
 
 
 def tortured(**changes: Any) -> dict[str, Any]:
@@ -235,6 +236,11 @@ def is_host(process: psutil.Process) -> bool:
     except psutil.Error:
         return False
     return bool(words) and words[0].startswith("ray::Host")
+
+
+def noise(err: str) -> list[str]:
+    """Give the lines that are none of Atoll's progress."""
+    return [line for line in err.splitlines() if not line.startswith(("run bits", "epoch ", "host ", "note"))]
 
 
 def belongs(process: psutil.Process, folder: Path) -> bool:

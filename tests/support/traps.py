@@ -31,11 +31,11 @@ IS_HOST = "RAY_RAYLET_PID" in os.environ
 class Trap:
     """One fault.
 
-    ``at``: build, evaluate, post, wait, form (what is named is an island, or nothing), write, remove (a file; what is
-    named is its path). ``like``: a pattern for what is named. ``moment``, of write: before; half (half of the draft is
-    on the disk); draft (all of it, not yet in its place); after. ``nth``: the time, of those in one process, that it
-    strikes. ``who``: host, driver, or any process. ``does``: the signal, or "crash" for an exit without a word.
-    ``always``: each time, in whichever process.
+    ``at``: build, evaluate, fit, post, wait, form, write, remove. What is named is an island (build, evaluate, form),
+    how many ones a genotype has (fit), a file's path (write, remove), or nothing. ``like``: a pattern for it.
+    ``moment``, of write: before; half (of the draft is on the disk); draft (all of it is, not yet in its place); after.
+    ``nth``: the time, of those in one process, that it strikes. ``who``: host, driver, or any process. ``does``: the
+    signal, or "crash" for an exit without a word. ``always``: each time, in whichever process.
     """
 
     at: str
@@ -59,7 +59,8 @@ class Traps:
 
     def meet(self, at: str, name: str, moment: str = "before") -> bool:
         """Tell whether a trap strikes here; it has left its mark then."""
-        return any([self._meets(place, trap, at, name, moment) for place, trap in enumerate(self.laid)])
+        met = [self._meets(place, trap, at, name, moment) for place, trap in enumerate(self.laid)]
+        return any(met)
 
     def _meets(self, place: int, trap: Trap, at: str, name: str, moment: str) -> bool:
         if (trap.at, trap.moment) != (at, moment) or not fnmatch.fnmatch(name, trap.like):
@@ -156,6 +157,7 @@ class TrappedBiology(BitsBiology):
 
     def evaluate(self, genotype: Any) -> Any:
         TRAPS.strike("evaluate", self.island)
+        TRAPS.strike("fit", f"{sum(genotype):02d}")
         TRAPS.back()
         return super().evaluate(genotype)
 

@@ -57,4 +57,6 @@ def pytest_terminal_summary(terminalreporter) -> None:
     widths = [max(len(row[column]) for row in rows) for column in range(4)]
     terminalreporter.section("faults")
     for row in [rows[0], tuple("-" * width for width in widths), *rows[1:]]:
-        terminalreporter.line("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")
+        terminalreporter.line(
+            "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |"
+        )
