@@ -36,8 +36,8 @@ ISLANDS = """
 def standing(folder: RunFolder) -> dict[str, Any]:
     """Give a run's status, islands, best so far, and rates.
 
-    ``generations`` counts those of islands that were there from the beginning to now, ``evaluations`` all scorings in the log,
-    and ``evaluations_per_s`` compares these with the time that the islands spent on them, all islands together.
+    ``generations`` counts those of islands that were there from the beginning to now, ``evaluations`` all scorings in
+    the log, and ``evaluations_per_s`` compares these with the time that the islands spent on them, all together.
     ``alive`` tells whether a process drives a run that is marked as going on; it is ``None`` for one that has ended.
     """
     manifest = folder.manifest()
