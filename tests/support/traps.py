@@ -33,7 +33,7 @@ class Trap:
 
     ``at``: build, evaluate, fit, post, wait, form, write, remove. What is named is an island (build, evaluate, form),
     how many ones a genotype has (fit), a file's path (write, remove), or nothing. ``like``: a pattern for it.
-    ``moment``, of write: before; half (of the draft is on the disk); draft (all of it is, not yet in its place); after.
+    ``moment``, of write: before; half (of the draft is on the disk); draft (all of it, not in its place yet); after.
     ``nth``: the time, of those in one process, that it strikes. ``who``: host, driver, or any process. ``does``: the
     signal, or "crash" for an exit without a word. ``always``: each time, in whichever process.
     """
@@ -86,11 +86,11 @@ class Traps:
                 os._exit(77)
             os.kill(os.getpid(), getattr(signal, f"SIG{does}"))
 
-    def back(self) -> None:
-        """Note that this process evaluates, for the first time since the last trap struck."""
-        struck = sorted(self.folder.glob("struck-*.json"))
+    def back(self, made: float) -> None:
+        """Note that this process evaluates on islands made since the last trap struck, for the first time."""
+        struck = list(self.folder.glob("struck-*.json"))
         mark = self.folder / f"back-{len(struck)}-{os.getpid()}.json"
-        if struck and not mark.exists():
+        if struck and made > max(path.stat().st_mtime for path in struck) and not mark.exists():
             mark.write_text(json.dumps({"time": time.time()}), encoding="utf-8")
 
 
@@ -152,13 +152,13 @@ if TRAPS.laid:
 class TrappedBiology(BitsBiology):
     def __init__(self, spec: IslandSpec, clock: Clock) -> None:
         super().__init__(spec, clock)
-        self.island = spec.name
+        self.island, self.made = spec.name, time.time()
         TRAPS.strike("build", spec.name)
 
     def evaluate(self, genotype: Any) -> Any:
         TRAPS.strike("evaluate", self.island)
         TRAPS.strike("fit", f"{sum(genotype):02d}")
-        TRAPS.back()
+        TRAPS.back(self.made)
         return super().evaluate(genotype)
 
     def write_forms(self, genotype: Any, *arguments: Any) -> Any:

@@ -9,6 +9,8 @@ import pytest
 from ordeal import RAY, Ordeal, slowed
 from traps import Trap
 
+from orchestrator.query import ask
+
 CONNECT = "{kind: migrants, from: north-0, to: east, name: over}"
 
 
@@ -27,12 +29,12 @@ def commands(ordeal: Ordeal) -> list[tuple[str, int | None]]:
 
 @pytest.mark.parametrize("backend", [(), RAY], ids=["inline", "ray"])
 def test_a_steered_run_that_is_killed_while_paused(place, note, backend: tuple[str, ...]) -> None:
-    ordeal = Ordeal(place, slowed(10, epochs=40))
+    ordeal = Ordeal(place, slowed(5))
     process = ordeal.run(*backend)
     ordeal.until(ordeal.checkpoints, process)
     for words in (
-        ("weight", "ones=3", "--island", "north"), ("remove", "3"), ("add-island", "east", "--like", "south"),
-        ("connect", CONNECT), ("pause",),
+        ("pause",), ("weight", "ones=3", "--island", "north"), ("remove", "3"),
+        ("add-island", "east", "--like", "south"), ("connect", CONNECT),
     ):  # fmt: skip
         ended = ordeal.steer(*words)
         assert ended.code == 0, ended.err
@@ -41,13 +43,10 @@ def test_a_steered_run_that_is_killed_while_paused(place, note, backend: tuple[s
     process.kill()
     ordeal.ended(process, -signal.SIGKILL)
     decided = commands(ordeal)
-    assert [verb for verb, _ in decided] == ["weight", "remove", "add-island", "connect", "pause"]
+    assert [verb for verb, _ in decided] == ["pause", "weight", "remove", "add-island", "connect"]
     ordeal.ended(ordeal.resume(), 0)
     assert commands(ordeal) == decided
-    islands = ordeal.store.at("log")
-    from orchestrator.query import ask
-
-    assert ("east",) in [tuple(row) for row in ask(islands, "select distinct island from generations").rows]
+    assert ask(ordeal.store.at("log"), "select count(*) from generations where island = 'east'").rows[0][0] > 0
     assert replayed(ordeal)
     note("steered, driver killed", f"while paused, {'Ray' if backend else 'inline'}; against its replay", None)
 
