@@ -5,6 +5,7 @@ What the driver remembers of a run is a line an island; all else is in the run's
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections import deque
@@ -17,7 +18,7 @@ from typing import Any, Final, final
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
 from islands.orders import Start
-from islands.store import Store
+from islands.store import Store, StoreError
 from islands.tally import IslandSummary
 from orchestrator import messages
 from orchestrator.archipelago import Archipelago, decide, ungranted
@@ -31,7 +32,7 @@ from orchestrator.past import facts_of
 from orchestrator.plan import Plan, host_plans
 from orchestrator.progress import Progress
 from orchestrator.query import ask
-from orchestrator.steering.command import ISLANDS, RUN, STRUCTURE, Request
+from orchestrator.steering.command import ISLANDS, RUN, STRUCTURE, Command, Request
 from orchestrator.steering.desk import Desk
 from orchestrator.steering.restructuring import replayed
 from orchestrator.steering.structure import structure_of
@@ -174,7 +175,8 @@ class Drive:
                 events.append(messages.StopAsked())
                 self.progress.note("stopping: the epoch in hand is given up, the log is written (once more: at once)")
                 told = True
-            self.lease.renew()
+            with contextlib.suppress(StoreError):  # what hosts write will tell whether it is gone for good
+                self.lease.renew()
             # Before all else: what was heard may let hosts begin the epoch in which a command takes effect.
             events.extendleft(reversed(self._steered(state)))
             if not events:
@@ -285,7 +287,10 @@ class Drive:
             return ()
         self.looked = now
         events: list[messages.Event] = []
-        for command in self.desk.look(ungranted(state), self._objection):
+        taken: Sequence[Command] = ()
+        with contextlib.suppress(StoreError):
+            taken = self.desk.look(ungranted(state), self._objection)
+        for command in taken:
             assert command.epoch is not None
             self._tell("intervention", {"n": command.number, "verb": command.verb, "epoch": command.epoch})
             if command.verb in ISLANDS:
@@ -338,7 +343,8 @@ class Drive:
         store = self.folder.store
         facts, islands = self.facts(), len(self.structure.living(self.epoch + 1))
         outcome = Outcome(store=store, status=end.status, reason=end.reason, islands=islands, **facts)
-        self.desk.close(f"the run is {end.status}")
+        with contextlib.suppress(StoreError):
+            self.desk.close(f"the run is {end.status}")
         if end.status == "failed" and not end.settled and self.is_fresh:
             remove(self.folder)
             raise RunFailedError(end.reason)

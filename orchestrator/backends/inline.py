@@ -45,6 +45,7 @@ class InlineBackend:
     def begin(self, plans: tuple[HostPlan, ...], deadlines: Deadlines) -> None:
         """Take the plans."""
         del deadlines
+        self.close()
         self._hosts = {plan.host: Host(plan) for plan in plans}
 
     def perform(self, instruction: Order) -> None:
@@ -97,4 +98,6 @@ class InlineBackend:
 
     def close(self) -> None:
         """Forget the hosts."""
+        for host in self._hosts.values():
+            host.close()
         self._hosts = {}
