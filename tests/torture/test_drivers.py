@@ -71,6 +71,7 @@ def test_a_driver_that_is_killed_while_it_resumes(place, note, moment: str) -> N
     before, last = ordeal.checkpoints()[-2:]
     # Its parts stay, and the log up to it: there is something to cut off.
     (ordeal.path / f"checkpoints/e{last:06d}.json").unlink()
+    # The first place is that of the trap that struck.
     ordeal.lay(Trap("build", "none"), AT_RESUME[moment])
     ordeal.ended(ordeal.resume(), -signal.SIGKILL)
     assert len(ordeal.marks()) == 2
