@@ -5,7 +5,17 @@ from __future__ import annotations
 import subprocess
 import sys
 
-NAMES = ("growth", "bnf_mapping", "mesh_queries", "start", "islands", "schedules", "many_islands")
+NAMES = (
+    "growth",
+    "bnf_mapping",
+    "mesh_queries",
+    "start",
+    "islands",
+    "schedules",
+    "many_islands",
+    "recovery",
+    "endurance",
+)
 
 
 def failed(name: str) -> bool:

@@ -21,7 +21,6 @@ from orchestrator.backends import cluster
 from orchestrator.backends.cluster import HOSTS_PER_CPU, hosts_for, machine_cpus
 from orchestrator.backends.protocol import RunFailedError
 from orchestrator.digest import digest
-from orchestrator.query import ask
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -168,35 +167,6 @@ def test_a_signal_to_the_whole_group_stops_cleanly(tmp_path, clean, number) -> N
     counts = ds.dataset(tmp_path / "runs/bits/log/generations").to_table(columns=["evaluations"])["evaluations"]
     assert sum(counts.to_pylist()) == manifest["evaluations"] == told["evaluations"]
     assert list((tmp_path / "runs/bits/forms").iterdir())
-
-
-@pytest.mark.ray
-def test_a_host_that_dies_is_replaced_and_the_log_is_that_of_an_undisturbed_run(tmp_path, clean) -> None:
-    data = slow()
-    data["epochs"] = 12
-    process = start(tmp_path, data)
-    until_settled(tmp_path, process)
-    hosts = [child for child in psutil.Process(process.pid).children(recursive=True) if _holds_islands(child)]
-    assert hosts
-    hosts[0].kill()
-    told, err = ended(process, 0)
-    assert told["status"] == "finished"
-    assert "died and could not" in err
-    assert "going on from the last checkpoint" in err
-    log = tmp_path / "runs/bits/log"
-    ((lost,),) = ask(log, "select detail->'lost' from events where kind = 'recovery'").rows
-    assert len(json.loads(lost)) == 1
-    other = tmp_path / "undisturbed"
-    other.mkdir()
-    data["defaults"].pop("growth")
-    assert digest(log) == digest(run(other, {**data, "backend": "inline"}).folder / "log")
-
-
-def _holds_islands(process: psutil.Process) -> bool:
-    try:
-        return process.cmdline()[:1] != [] and process.cmdline()[0].startswith("ray::Host")
-    except psutil.Error:
-        return False
 
 
 @pytest.mark.ray

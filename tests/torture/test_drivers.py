@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 
 import pytest
-from ordeal import Ordeal, tortured
+from ordeal import Ordeal, slowed, tortured
 from traps import Trap
 
 CHECKPOINT = "*/checkpoints/e00000[3-8]"
@@ -53,3 +53,30 @@ def test_a_driver_that_is_killed(place, note, moment: str) -> None:
     assert ordeal.same()
     back = ordeal.marks("back")
     note("driver killed", moment, ordeal.recovered_s(ordeal.started) if back else None)
+
+
+AT_RESUME = {
+    "as the first log file is cut off": Trap("remove", "*/log/*.parquet"),
+    "as the log is half cut off": Trap("remove", "*/log/*.parquet", "after", nth=3),
+    "as its new settings are written": Trap("write", "*/experiment.yaml", "draft"),
+    "before it says that it runs": Trap("write", "*/manifest.json"),
+    "in the middle of its first event": Trap("write", "*/log/events/run-*", "half"),
+}
+
+
+@pytest.mark.parametrize("moment", AT_RESUME)
+def test_a_driver_that_is_killed_while_it_resumes(place, note, moment: str) -> None:
+    ordeal = Ordeal(place, slowed(), Trap("evaluate", "south", nth=170))
+    ordeal.ended(ordeal.run(), -signal.SIGKILL)
+    before, last = ordeal.checkpoints()[-2:]
+    # Its parts stay, and the log up to it: there is something to cut off.
+    (ordeal.path / f"checkpoints/e{last:06d}.json").unlink()
+    # The first place is that of the trap that struck.
+    ordeal.lay(Trap("build", "none"), AT_RESUME[moment])
+    ordeal.ended(ordeal.resume(), -signal.SIGKILL)
+    assert len(ordeal.marks()) == 2
+    ended = ordeal.ended(ordeal.resume(), 0)
+    assert f"going on after epoch {before}\n" in ended.err
+    assert not list(ordeal.path.glob("checkpoints/.*"))
+    assert ordeal.same()
+    note("driver killed during resume", moment, ordeal.recovered_s(ordeal.started))
