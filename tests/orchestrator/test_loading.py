@@ -50,7 +50,7 @@ def test_the_design_s_own_example_is_accepted_whole(tmp_path) -> None:
     assert [spec.name for spec in plan.islands] == ["north-0", "north-1", "north-2", "north-3"]
     assert [(edge.source, edge.target) for edge in plan.edges] == [(0, 1), (1, 2), (2, 3), (3, 0)]
     assert {spec.species for spec in plan.islands} == {"drapery"}
-    assert loaded.notes == ("checkpoint: accepted, but this version writes no checkpoints yet",)
+    assert loaded.notes == ()
 
 
 def test_resolved_data_resolve_to_themselves(tmp_path) -> None:
