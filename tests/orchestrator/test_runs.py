@@ -64,8 +64,8 @@ def test_the_best_is_the_best_ever_bred_also_where_no_elite_keeps_it(tmp_path) -
 
 def test_the_folder_is_as_the_interface_has_it(outcome) -> None:
     folder = outcome.folder
-    found = sorted(path.name for path in folder.iterdir())
-    assert found == [".lock", "checkpoints", "experiment.yaml", "forms", "log", "manifest.json"]
+    names = [".lock", "checkpoints", "experiment.yaml", "forms", "log", "manifest.json"]
+    assert sorted(path.name for path in folder.iterdir()) == names
     manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["run"] == "bits"
     assert manifest["status"] == "finished"
