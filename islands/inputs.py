@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -34,8 +35,11 @@ def inputs_here(plan: HostPlan) -> Iterator[HostPlan]:
     if store.local is not None:
         yield plan
         return
-    with tempfile.TemporaryDirectory(prefix="atoll-") as here:
+    here = tempfile.mkdtemp(prefix="atoll-")
+    try:
         bring_inputs(store, Path(here))
         islands = tuple(replace(spec, base=here) for spec in plan.islands)
         foreign = tuple(replace(spec, base=here) for spec in plan.foreign)
         yield replace(plan, islands=islands, foreign=foreign)
+    finally:
+        shutil.rmtree(here, ignore_errors=True)
