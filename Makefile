@@ -25,7 +25,7 @@ lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
 	@$(BIN)/lint-imports
 
 torture: $(TEST_READY)  ## the fault suite whole, and its table (minutes)
-	@$(BIN)/python -m pytest -q tests/torture -m "torture or ray"
+	@ATOLL_TORTURE=1 $(BIN)/python -m pytest -q tests/torture -m "torture or ray"
 
 bench: $(TEST_READY)  ## benchmarks, as ratios against peers
 	@$(BIN)/python -m benchmarks

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -60,3 +61,11 @@ def pytest_terminal_summary(terminalreporter) -> None:
         terminalreporter.line(
             "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |"
         )
+
+
+# In the default run a sample of hosts and drivers alone; `make torture` takes all.
+collect_ignore = (
+    []
+    if os.environ.get("ATOLL_TORTURE")
+    else ["test_cluster.py", "test_disks.py", "test_evaluators.py", "test_steering.py", "test_stores.py"]
+)
