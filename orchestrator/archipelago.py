@@ -53,7 +53,7 @@ from orchestrator.messages import (
 Phase = Literal["new", "starting", "running", "saving", "finishing", "rewinding", "regrouping", "done"]
 """``rewinding`` while hosts give up what they are at, ``regrouping`` from the order to rewind until it is done."""
 
-CALL_S: Final = 0.25
+CALL_S: Final = 0.5
 """A call holds as many epochs as are expected to fit into this time, at least one."""
 
 MOST_EPOCHS: Final = 32

@@ -56,7 +56,7 @@ class CheckpointSettings(Settings):
 
     every: Count = 4
     keep: Count = 2
-    spacing: Annotated[float, Field(ge=0, le=1e7)] = 1.0
+    spacing: Annotated[float, Field(ge=0, le=1e7)] = 5.0
 
 
 class FormSettings(Settings):
