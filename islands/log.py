@@ -13,6 +13,7 @@ from contextlib import suppress
 from datetime import datetime
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, final
+from zlib import crc32
 
 from genome.mishaps import plain
 from islands.records import Records
@@ -42,10 +43,11 @@ class Event(NamedTuple):
 
 
 class LogFile(NamedTuple):
-    """A file that was written: its name in the ``log`` folder, and its size in bytes."""
+    """A file that was written: its name in the ``log`` folder, its size in bytes, and the CRC-32 of its content."""
 
     name: str
     bytes: int
+    crc: int
 
 
 @final
@@ -175,7 +177,7 @@ class LogWriter:
 
 
 def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> LogFile:
-    """Write one Parquet file whole or not at all; give its name in the log's folder, and its size."""
+    """Write one Parquet file whole or not at all; give what was written."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
@@ -192,7 +194,7 @@ def write(folder: Anywhere, table_name: str, stem: str, table: pa.Table) -> LogF
     name = f"{table_name}/{stem}.parquet"
     written = content.getvalue().to_pybytes()
     Store.open(folder).write(name, written, staging=".tmp")
-    return LogFile(name, len(written))
+    return LogFile(name, len(written), crc32(written))
 
 
 def events_table(run: str, events: Sequence[Event]) -> pa.Table:

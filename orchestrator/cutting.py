@@ -53,7 +53,7 @@ def cut_log(store: Store, checkpoint: Checkpoint | None, *, keep_run_events: boo
     log = store.at("log")
     kept: set[str] = set()
     if checkpoint is not None:
-        kept.update(name for name, _ in checkpoint.log)
+        kept.update(name for name, *_ in checkpoint.log)
         kept.update(run_events(number) for number in range(checkpoint.events))
     removed = []
     for table in log.folders():

@@ -6,6 +6,7 @@ import errno
 import json
 import os
 from datetime import UTC, datetime
+from zlib import crc32
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -190,8 +191,9 @@ def test_it_tells_what_it_wrote_however_the_flushes_are_cut(tmp_path) -> None:
     names += [
         f"{table}/e{span}-i00000-00000.parquet" for span in epochs[1:] for table in ("individuals", "generations")
     ]
-    assert [name for name, _ in log.files] == names
-    assert all((tmp_path / name).stat().st_size == size for name, size in log.files)
+    assert [name for name, *_ in log.files] == names
+    assert all((tmp_path / name).stat().st_size == size for name, size, _ in log.files)
+    assert all(crc32((tmp_path / name).read_bytes()) == crc for name, _, crc in log.files)
     assert sorted(names) == sorted(str(path.relative_to(tmp_path)) for path in tmp_path.glob("*/*.parquet"))
 
 
@@ -199,7 +201,7 @@ def test_one_that_goes_on_writes_no_tables_without_rows(tmp_path) -> None:
     log = LogWriter(tmp_path, "test", [spec()], lambda: NOON, begun=True)
     stepped(log, [3])
     log.flush()
-    assert [name.partition("/")[0] for name, _ in log.files] == ["individuals", "generations"]
+    assert [name.partition("/")[0] for name, *_ in log.files] == ["individuals", "generations"]
 
 
 def test_events_told_after_their_epoch_never_take_the_place_of_others(tmp_path) -> None:
@@ -212,7 +214,7 @@ def test_events_told_after_their_epoch_never_take_the_place_of_others(tmp_path) 
         for kind in ("one", "two"):
             log.tell(0, 2, kind, {})
             log.flush()
-        names += [name for name, _ in log.files if "after" in name]
+        names += [name for name, *_ in log.files if "after" in name]
     ends = ("", "-2", "-3", "-4")
     assert names == [f"events/e000002-000002-i00000-00000-after{end}.parquet" for end in ends]
     kinds = [pq.read_table(tmp_path / name).column("kind").to_pylist() for name in names]

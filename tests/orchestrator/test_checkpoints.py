@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from datetime import UTC, datetime
+from zlib import crc32
 
 import pytest
 from archipelagos import island, spec
@@ -103,7 +104,7 @@ def logged(store: Store) -> set[str]:
 
 
 def files_of(checkpoint: Checkpoint) -> set[str]:
-    return {name for name, _ in checkpoint.log} | {f"events/run-{n:04d}.parquet" for n in range(checkpoint.events)}
+    return {name for name, *_ in checkpoint.log} | {f"events/run-{n:04d}.parquet" for n in range(checkpoint.events)}
 
 
 def test_the_newest_is_found_with_all_that_it_holds(store) -> None:
@@ -112,13 +113,12 @@ def test_the_newest_is_found_with_all_that_it_holds(store) -> None:
     assert newest(store, RUN, SEED) == (made[-1], ())
     assert store.names("checkpoints") == ["e000001.json", "e000003.json", "e000005.json"]
     assert made[0].log == tuple(
-        LogFile(f"{table}/e000000-000001-i0000{host}-0000{host}.parquet", size)
+        LogFile(name, len(content), crc32(content))
         for table in ("evaluations", "events", "generations", "individuals", "migrations")
-        for host, size in enumerate(
-            store.size(f"log/{table}/e000000-000001-i0000{host}-0000{host}.parquet") for host in range(2)
-        )
+        for name in (f"{table}/e000000-000001-i0000{host}-0000{host}.parquet" for host in range(2))
+        for content in (store.read(f"log/{name}"),)
     )
-    assert {name for name, _ in made[1].log} - {name for name, _ in made[0].log} == {
+    assert {name for name, *_ in made[1].log} - {name for name, *_ in made[0].log} == {
         f"{table}/e000002-000003-i0000{host}-0000{host}.parquet"
         for table in ("generations", "individuals") for host in range(2)
     }  # fmt: skip
@@ -156,6 +156,7 @@ def turned(place: int):
         (PART, gone, f"{PART}: expected a part of a checkpoint, "),
         (LOG, cut, f"{LOG}: expected a file of "),
         (LOG, gone, f"{LOG}: expected a file of "),
+        *((LOG, turned(place), f"{LOG}: expected content of the CRC-32 ") for place in (4, 30, 99, 500, -600, -12)),
         (LOG, turned(1), f"{LOG}: expected a whole Parquet file, got one that lacks its beginning or its end"),
         (LOG, turned(-4), f"{LOG}: expected a whole Parquet file, got one that lacks its beginning or its end"),
         (LOG, turned(-5), f"{LOG}: expected a whole Parquet file, got one that lacks its beginning or its end"),
@@ -366,7 +367,7 @@ def test_a_checkpoint_needs_each_island_once(store) -> None:
             complete(store, Checkpoint(RUN, SEED, 1, parts, ()))
     assert store.names("checkpoints") == []
     with pytest.raises(ValueError, match="two log files have the name b"):
-        log_of(None, [[LogFile("a", 1)], [LogFile("b", 1), LogFile("b", 2)]])
+        log_of(None, [[LogFile("a", 1, 0)], [LogFile("b", 1, 0), LogFile("b", 2, 0)]])
 
 
 FACTS = st.dictionaries(
@@ -380,6 +381,6 @@ FACTS = st.dictionaries(
 def test_whatever_is_written_is_read(tmp_path_factory, run, seed, epoch, facts) -> None:
     store = Store.open(tmp_path_factory.mktemp("run"))
     part = write_part(store, 0, 3, [Kept(island(4), State((), 0, 0, 0), (), None)])
-    made = Checkpoint(run, seed, epoch, (part,), (LogFile("events/é.parquet", 5),), 1, 2, 3, facts)
+    made = Checkpoint(run, seed, epoch, (part,), (LogFile("events/é.parquet", 5, 2**32 - 1),), 1, 2, 3, facts)
     complete(store, made)
     assert read(store, epoch) == made
