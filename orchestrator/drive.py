@@ -133,7 +133,7 @@ class Drive:
         self.clock, self.lease, self.replay, self.before = clock, lease, replay, before
         self.stood: float | None = None
         self.latest: tuple[IslandSummary, ...] = ()
-        self.evaluations = self.evaluated_before = evaluations_until(folder, before)
+        self.evaluations = 0
         self.stepped_s = 0.0
         self.round, self.looked = 0, 0.0
         self.is_begun = self.is_paused = False
@@ -149,9 +149,6 @@ class Drive:
         """Drive until the run is over."""
         experiment = self.loaded.experiment
         self._restructure()
-        kind = "start" if self.is_fresh else "resume"
-        detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
-        self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
         self._begin()
         self.is_begun = True
         self.progress.begin(self.plan, experiment, self.folder.store)
@@ -165,7 +162,15 @@ class Drive:
             reached=self.epoch,
             limit=self._limit(),
         )
-        events: deque[messages.Event] = deque([messages.Begun()])
+        state, instructions = decide(state, messages.Begun())
+        events: deque[messages.Event] = deque()
+        for instruction in instructions:
+            events.extend(self._done(instruction))
+        # What takes its time, while the hosts start.
+        self.evaluations = evaluations_until(self.folder, self.before)
+        kind = "start" if self.is_fresh else "resume"
+        detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
+        self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
         told = False
         while True:
             if not events:
