@@ -38,6 +38,8 @@ Exits with 2 when the command cannot be meant or the run refuses it, and with 1 
 @click.command(
     "steer",
     help=HELP,
+    # An id that is negative by mistake is a word to be refused by name, not an option that nobody knows.
+    context_settings={"ignore_unknown_options": True},
     epilog=example(
         "atoll steer runs/drape pause",
         "atoll steer runs/drape weight size=3 undulation=0.5 --island drape-0",

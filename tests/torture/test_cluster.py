@@ -45,18 +45,20 @@ def three_nodes(place: Path, more: dict[str, str]) -> Iterator[tuple[Any, str, d
             os.environ.pop(name, None) if value is None else os.environ.update({name: value})
 
 
+@contextmanager
+def store_of_runs(far: bool) -> Iterator[tuple[str, dict[str, str]]]:
+    """Give where runs are to stand, on a disk or in a bucket, and what processes must know to reach it."""
+    if not far:
+        yield "runs", {}
+        return
+    with serving() as server, reaching(server):
+        yield "s3://bucket/runs", environment(server)
+
+
 @pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning")
 @pytest.mark.parametrize("far", [False, True], ids=["disk", "s3"])
 def test_a_node_that_is_removed(place, note, far: bool) -> None:
-    if far:
-        with serving() as server, reaching(server):
-            _removed(place, note, "s3://bucket/runs", environment(server))
-    else:
-        _removed(place, note, "runs", {})
-
-
-def _removed(place: Path, note: Any, runs: str, more: dict[str, str]) -> None:
-    with three_nodes(place, more) as (cluster, address, told):
+    with store_of_runs(far) as (runs, more), three_nodes(place, more) as (cluster, address, told):
         ordeal = Ordeal(place, slowed(20), runs=runs, environment=told)
         process = ordeal.run(*HOSTS, "--address", address)
         ordeal.until(lambda: [name for name in ordeal.store.names("checkpoints") if name.endswith(".json")], process)
