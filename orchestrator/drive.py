@@ -149,6 +149,8 @@ class Drive:
         """Drive until the run is over."""
         experiment = self.loaded.experiment
         self._restructure()
+        if self.is_fresh:
+            self._tell_of_start()
         self._begin()
         self.is_begun = True
         self.progress.begin(self.plan, experiment, self.folder.store)
@@ -166,11 +168,10 @@ class Drive:
         events: deque[messages.Event] = deque()
         for instruction in instructions:
             events.extend(self._done(instruction))
-        # What takes its time, while the hosts start.
-        self.evaluations = evaluations_until(self.folder, self.before)
-        kind = "start" if self.is_fresh else "resume"
-        detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed, "epoch": self.epoch}
-        self._tell(kind, detail if kind == "resume" else {key: detail[key] for key in ("hosts", "backend", "seed")})
+        if not self.is_fresh:
+            # What takes its time, while the hosts start.
+            self.evaluations = evaluations_until(self.folder, self.before)
+            self._tell_of_start()
         told = False
         while True:
             if not events:
@@ -192,6 +193,14 @@ class Drive:
                 if isinstance(instruction, messages.Conclude):
                     return self._conclude(instruction)
                 events.extend(self._done(instruction))
+
+    def _tell_of_start(self) -> None:
+        experiment = self.loaded.experiment
+        detail = {"hosts": self.hosts, "backend": experiment.backend, "seed": experiment.seed}
+        if self.is_fresh:
+            self._tell("start", detail)
+        else:
+            self._tell("resume", {**detail, "epoch": self.epoch})
 
     def _done(self, instruction: messages.Instruction) -> Sequence[messages.Event]:
         """Do what the archipelago decided."""

@@ -22,7 +22,8 @@ def test_one_that_crashes_its_process_each_time(place, note) -> None:
     """The run fails in a line, after a few losses; it goes on when the plug-in is mended."""
     ordeal = Ordeal(place, slowed(1), Trap("fit", "27", who="host", does="SEGV", always=True))
     ended = ordeal.ended(ordeal.run(*RAY), 1)
-    assert "died and could not finish epoch" in ended.complaint
+    # Both hosts crash at about the same moment: one of them may be found dead only as it is to start again.
+    assert "died and could not " in ended.complaint
     assert "; it held " in ended.complaint
     assert "it is the 4th loss in a row without an epoch in between; go on with: " in ended.complaint
     assert len(ordeal.events("recovery")) >= 3
