@@ -6,6 +6,7 @@ seems whole that is not. Each function can be broken off and called again.
 
 from __future__ import annotations
 
+import re
 from typing import Final
 
 from genome.errors import InputError
@@ -15,6 +16,8 @@ from orchestrator.checkpoints import Checkpoint, epochs_of, read, run_events
 
 SUFFIX: Final = ".parquet"
 RUN: Final = "events/run-"
+DRAFT: Final = re.compile(r"\..+\.tmp")
+"""What whoever was killed while writing a file leaves beside its place."""
 
 
 def roll_back(store: Store, checkpoint: Checkpoint | None, *, keep_run_events: bool = False) -> tuple[str, ...]:
@@ -27,9 +30,9 @@ def roll_back(store: Store, checkpoint: Checkpoint | None, *, keep_run_events: b
     for epoch in _all_epochs(store):
         if epoch > last:
             _unmake(store, epoch)
-    for name in store.names(FOLDER, hidden=True):
-        if name.startswith("."):
-            store.remove(f"{FOLDER}/{name}")
+    for name in (*store.names("", hidden=True), *(f"{FOLDER}/{name}" for name in store.names(FOLDER, hidden=True))):
+        if DRAFT.fullmatch(name.rpartition("/")[2]):
+            store.remove(name)
     return cut_log(store, checkpoint, keep_run_events=keep_run_events)
 
 

@@ -315,8 +315,11 @@ def test_a_run_that_is_rolled_back_and_goes_on_has_each_row_once(store) -> None:
 
     made = history(store)
     store.write("checkpoints/.e000007.json.1234.tmp", b"{")
+    store.write(".experiment.yaml.5678.tmp", b"na")
+    store.write(".lock", b"")
     roll_back(store, made[1])
     assert store.names("checkpoints", hidden=True) == ["e000001.json", "e000003.json"]
+    assert store.names(hidden=True) == [".lock"]
     assert newest(store, RUN, SEED) == (made[1], ())
     assert store.folders("checkpoints") == ["e000001", "e000003"]
     again = Driver(store, made[1])
