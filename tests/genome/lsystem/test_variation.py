@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from deap import gp
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from lsystem_strategies import systems, words
 from scipy.stats import chisquare
@@ -61,6 +61,7 @@ def outcomes(make: Callable[[np.random.Generator], object], count: int = 4000) -
     return Counter(str(make(rng)) for _ in range(count))
 
 
+@settings(deadline=None)
 @given(SEEDS, st.booleans())
 def test_a_random_system_draws_within_bounds_and_travels(seed: int, chances: bool) -> None:
     settings = SETTINGS.model_copy(update={"chances": chances})
@@ -101,6 +102,7 @@ def test_random_symbols_words_and_chances_are_as_likely_as_said() -> None:
     assert even(lefts, {"None": 0.75, "F": 0.25})
 
 
+@settings(deadline=None)
 @given(words())
 def test_a_word_as_a_tree_is_one_that_deap_takes_and_back(word: Word) -> None:
     tree = gp.PrimitiveTree(as_tree(word))
@@ -109,6 +111,7 @@ def test_a_word_as_a_tree_is_one_that_deap_takes_and_back(word: Word) -> None:
 
 
 @pytest.mark.parametrize("kind", ["one_point", "common_region"])
+@settings(deadline=None)
 @given(first=systems(), second=systems(), seed=SEEDS)
 def test_crossover_exchanges_parts_of_one_rule_and_loses_none(
     kind: str, first: LSystem, second: LSystem, seed: int
@@ -206,6 +209,7 @@ def test_offspring_of_many_generations_stay_within_bounds(kind: str) -> None:
     assert (largest, deepest) == (20, 3)
 
 
+@settings(deadline=None)
 @given(systems(), SEEDS)
 def test_a_mutation_changes_successors_alone(parent: LSystem, seed: int) -> None:
     child = mutate(parent, rng_of(seed), SETTINGS)
