@@ -78,9 +78,9 @@ def test_a_file_is_read_back_with_its_systems(suffix: str, with_forces: bool, tm
     write_form(WRAPPED, path, "A body", {"height": 3.0}, forces)
     scene = trimesh.load_scene(path, process=False, **({"split_objects": True} if suffix == ".obj" else {}))
     if suffix != ".stl":
-        assert list(scene.geometry) == list(SYSTEMS)
-    for system, mesh in enumerate(scene.geometry.values()):
-        chosen = (INTERNAL, ENVELOPE, BOUNDARY) if suffix == ".stl" else [system]
+        assert sorted(scene.geometry) == sorted(SYSTEMS)
+    for name, mesh in scene.geometry.items():
+        chosen = (INTERNAL, ENVELOPE, BOUNDARY) if suffix == ".stl" else [SYSTEMS.index(name)]
         expected = to_trimesh(body_surface(WRAPPED, chosen))
         vertices = np.array(mesh.vertices)
         if suffix == ".glb":
