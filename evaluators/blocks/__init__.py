@@ -1,0 +1,1 @@
+"""Criteria of block bodies, and the load on them."""
