@@ -1,4 +1,4 @@
-"""Compiled loops of the load models: which blocks touch, how deep they lie, what each cut carries, and its imbalance.
+"""Compiled loops of the load models: how deep blocks lie, what each cut carries, and how far it is out of balance.
 
 ``joint`` is a row of pairs of places in the cells, ``part`` a connected part of the blocks above one cut.
 """
@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
-Bytes = NDArray[np.uint8]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -26,93 +25,6 @@ IN_LINE: Final = 1e-9
 def kernel(function: F) -> F:
     """Compile a function with Numba, kept on disk; strict floating point, one thread."""
     return cast("F", njit(cache=True)(function))
-
-
-@kernel
-def _home(x: int, y: int, z: int, mask: int) -> int:
-    """Give the slot of the table at which the search for a cell begins."""
-    mixed = x * 73856093 ^ y * 19349663 ^ z * 83492791
-    return (mixed ^ (mixed >> 17)) & mask
-
-
-@kernel
-def table(cells: Ints) -> Ints:
-    """Lay cells out for :func:`place_of`: an open-addressing hash table of their places, -1 where it is empty.
-
-    Parameters
-    ----------
-    cells
-        (n, 3) int64, no two alike.
-
-    Returns
-    -------
-    (m,) int64, m a power of two, at least twice n.
-    """
-    size = 4
-    while size < 2 * cells.shape[0]:
-        size *= 2
-    slots = np.full(size, -1, dtype=np.int64)
-    for i in range(cells.shape[0]):
-        slot = _home(cells[i, 0], cells[i, 1], cells[i, 2], size - 1)
-        while slots[slot] >= 0:
-            slot = (slot + 1) & (size - 1)
-        slots[slot] = i
-    return slots
-
-
-@kernel
-def place_of(slots: Ints, cells: Ints, x: int, y: int, z: int) -> int:
-    """Give the place of the cell (x, y, z), or -1 where there is none."""
-    mask = slots.size - 1
-    slot = _home(x, y, z, mask)
-    while slots[slot] >= 0:
-        i = slots[slot]
-        if cells[i, 0] == x and cells[i, 1] == y and cells[i, 2] == z:
-            return int(i)
-        slot = (slot + 1) & mask
-    return -1
-
-
-@kernel
-def touching(cells: Ints, offsets: Ints, contacts: Bytes) -> tuple[Ints, Bytes]:
-    """Find all pairs of neighbours.
-
-    Parameters
-    ----------
-    cells
-        (n, 3) int64, no two alike.
-    offsets, contacts
-        The lattice's; an offset is looked along when it is above its opposite in lexicographic order.
-
-    Returns
-    -------
-    pairs : (j, 2) int64
-        Places in ``cells``, in ascending order of the first; each pair once.
-    kinds : (j,) uint8
-        What they share.
-    """
-    slots = table(cells)
-    ahead = np.empty(offsets.shape[0], dtype=np.int64)
-    count = 0
-    for k in range(offsets.shape[0]):
-        x, y, z = offsets[k]
-        if x > 0 or (x == 0 and (y > 0 or (y == 0 and z > 0))):
-            ahead[count] = k
-            count += 1
-    pairs = np.empty((cells.shape[0] * count, 2), dtype=np.int64)
-    kinds = np.empty(cells.shape[0] * count, dtype=np.uint8)
-    found = 0
-    for i in range(cells.shape[0]):
-        for c in range(count):
-            k = ahead[c]
-            j = place_of(slots, cells, cells[i, 0] + offsets[k, 0], cells[i, 1] + offsets[k, 1],
-                         cells[i, 2] + offsets[k, 2])  # fmt: skip
-            if j >= 0:
-                pairs[found, 0] = i
-                pairs[found, 1] = j
-                kinds[found] = contacts[k]
-                found += 1
-    return pairs[:found].copy(), kinds[:found].copy()
 
 
 @kernel

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Final
 
+from evaluators.blocks.load.frame import frame
 from evaluators.blocks.load.galasyn import galasyn
 from evaluators.blocks.load.load import Load
 from evaluators.blocks.load.rigid import rigid
@@ -15,7 +16,7 @@ from growth.blocks.body import Body
 
 Model = Callable[[Body, LoadSettings], Load]
 
-MODELS: Final[Mapping[str, Model]] = MappingProxyType({"galasyn": galasyn, "rigid": rigid})
+MODELS: Final[Mapping[str, Model]] = MappingProxyType({"galasyn": galasyn, "rigid": rigid, "frame": frame})
 """The models by the names that settings use."""
 
 

@@ -8,14 +8,15 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
-from evaluators.blocks.load import _kernels as kernels
+from evaluators.blocks._kernels import touching
+from evaluators.blocks.load._kernels import depths
 from growth.blocks.body import BOUNDARY, ENVELOPE, Body
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 TURNING: Final = 1.0 / 12.0
-"""A joint's moment per angle over its force per displacement: E I / L over E A / L of a unit block (I = 1/12, A = 1)."""
+"""A joint's moment per angle over its force per displacement: E I / L over E A / L of a unit block."""
 
 
 @final
@@ -63,10 +64,10 @@ def layers(body: Body, *, envelope_counts: bool = True) -> Layers:
     places = np.flatnonzero((body.systems != ENVELOPE) | envelope_counts)
     cells = np.ascontiguousarray(body.cells[places])
     ground = np.ascontiguousarray(body.systems[places] == BOUNDARY)
-    pairs, kinds = kernels.touching(cells, body.lattice.offsets, body.lattice.contacts)
+    pairs, kinds = touching(cells, body.lattice.offsets, body.lattice.contacts)
     used = ~(ground[pairs[:, 0]] & ground[pairs[:, 1]])
     pairs, kinds = pairs[used], kinds[used]
-    deep = kernels.depths(len(cells), pairs, ground)
+    deep = depths(len(cells), pairs, ground)
     standing = deep[pairs[:, 0]] >= 0
     pairs, kinds = places[pairs[standing]], kinds[standing]
     depth = np.full(len(body.cells), -1, dtype=np.int64)
