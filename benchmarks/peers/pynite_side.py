@@ -1,9 +1,9 @@
 """PyNiteFEA's side of the comparison of frames: run in the peers' environment, JSON in, JSON out.
 
 In: ``rounds`` and ``frames``, each with ``nodes`` (coordinates), ``clamped`` (places), ``members`` (pairs of places),
-``section`` (E, G, A, I, J) and ``weight`` on each node. Out: for each frame ``carried``, per member the force and moment
-in world axes that its second node does to its first at its middle, and ``seconds`` of assembly and solution, the best of
-the rounds.
+``section`` (E, G, A, I, J) and ``weight`` on each node. Out: for each frame ``carried``, per member the force and the
+moment, in world axes, that its second node does to its first at its middle, and ``seconds`` of assembly and solution,
+the best of the rounds.
 """
 
 from __future__ import annotations
