@@ -181,6 +181,22 @@ def record(python: Path) -> None:
     RECORD.write_text("[\n" + ",\n".join(json.dumps(row) for row in rows) + "\n]\n", encoding="utf-8")
 
 
+def examples() -> None:
+    """Print the largest force and moment, by model, of shapes that are easily understood."""
+    wall = BlockGrowth(supports=tuple((-1, y, z) for y in range(2) for z in range(2)))
+    bars = {f"cantilever of 8, {high} high": [(x, 0, z) for x in range(8) for z in range(high)] for high in (1, 2)}
+    bars["cantilever of 8, 2 high and wide"] = [(x, y, z) for x in range(8) for y in range(2) for z in range(2)]
+    sides = [(x, 0, z) for x in (-3, 3) for z in range(4)]
+    ground = {"arch, 7 wide and 4 high": [*sides, *((x, 0, 3) for x in range(-2, 3))]}
+    ground["leaning column of 8"] = [(z, 0, z) for z in range(8)]
+    bodies = {name: stand(np.array(cells), wall) for name, cells in bars.items()}
+    bodies |= {name: stand(np.array(cells), BlockGrowth()) for name, cells in ground.items()}
+    for name, body in bodies.items():
+        loads = [analyse(body, LoadSettings.model_validate({"model": model})) for model in ("frame", "rigid", "galasyn")]
+        cells = [f"{largest(load):.2f}, {load.torsional.max():.2f}" for load in loads]
+        print(f"| {name} | {' | '.join(cells)} | {loads[2].residual:.2f} |")
+
+
 def main() -> int:
     """Print the tables; give 1 when a limit is missed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -190,6 +206,7 @@ def main() -> int:
     if flags.record:
         record(flags.peers)
         return 0
+    examples()
     good = speed(flags.peers)
     for name, bodies in (("random walks", walks), ("random L-systems", words)):
         print(f"{name}: {COUNT} bodies of {LEAST} to {MOST} blocks")
