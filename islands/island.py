@@ -214,7 +214,8 @@ class Island(Generic[G]):
         if not places:
             return deme
         count = self._scheme.offspring(settings, places, len(free))
-        births = breed(registrar.context.biology, order, count, settings, streams)
+        breeders = self._scheme.breeders(settings, self.spec.population, order)
+        births = breed(registrar.context.biology, breeders, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
         return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
 

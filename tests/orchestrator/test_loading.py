@@ -140,6 +140,11 @@ MISTAKES = [
     ("islands.north.fitness", {"one": {"goal": "maximise"}}, "fitness.one: expected a criterion, got 'one'"),
     ("islands.north.fitness", {"ones": {"goal": "target"}}, "fitness.ones: expected a value for the goal 'target'"),
     ("islands.north.algorithm", {"elite": 12}, "algorithm.elite: expected less than the population of 12, got 12"),
+    (
+        "islands.north.algorithm",
+        {"name": "parents", "parents": 13},
+        "algorithm.parents: expected at most the population of 12, got 13",
+    ),
     ("islands.north.algorithm", {"crossover": 1.5}, "algorithm.crossover: expected less than or equal to 1, got 1.5"),
     ("islands.north-1", {}, "islands.north-1: expected islands of different names, got 'north-1', a name that the"),
     ("islands.no rth", {}, "islands.no rth"),
