@@ -73,7 +73,8 @@ def roulettes(order: Sequence[Individual[G]], rounds: int, rng: np.random.Genera
     shares = np.cumsum(_weights(order))
     drawn = np.searchsorted(shares, rng.random(rounds) * shares[-1], side="right")
     # The last share that is not empty ends the wheel, whatever was rounded.
-    return np.minimum(drawn, int(np.searchsorted(shares, shares[-1]))).astype(np.int64)
+    places: NDArray[np.int64] = np.minimum(drawn, int(np.searchsorted(shares, shares[-1]))).astype(np.int64)
+    return places
 
 
 def _weights(order: Sequence[Individual[G]]) -> NDArray[np.float64]:
