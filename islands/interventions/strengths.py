@@ -1,4 +1,4 @@
-"""``strength``: other strengths of the joints of an island's bodies (Senatore 2009, 'weights and mechanical properties').
+"""``strength``: other strengths of joints (Senatore 2009, 'weights and mechanical properties').
 
 From that epoch on bodies are loaded by the changed strengths, and the deme is scored again: who stood may fall, and who
 fell may stand. A strength stays changed until it is changed again.
