@@ -19,26 +19,13 @@ from genome.errors import InputError
 from genome.settings import describe
 from growth.blocks import BlockGrowth
 from growth.blocks.body import BOUNDARY, Body
-from growth.blocks.lattice import LATTICES
+from growth.blocks.settings import as_cell, check_on_lattice
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 
 Cells = NDArray[np.int64]
 
-FARTHEST: Final = 100_000
-"""Of a coordinate of a cell that settings or travellers name."""
-
-
-def _as_cell(value: object) -> object:
-    if isinstance(value, tuple):
-        return value
-    fits = isinstance(value, list) and len(value) == 3 and all(type(one) is int for one in value)
-    if not isinstance(value, list) or not fits or max(map(abs, value)) > FARTHEST:
-        raise InputError("", "a cell: three whole numbers [x, y, z]", describe(value))
-    return tuple(value)
-
-
-Cell = Annotated[tuple[int, int, int], BeforeValidator(_as_cell)]
+Cell = Annotated[tuple[int, int, int], BeforeValidator(as_cell)]
 
 
 class BlockLoad(LoadSettings):
@@ -95,8 +82,11 @@ def check_start(start: Sequence[int], growth: BlockGrowth, where: str) -> None:
     InputError
         For a sum of coordinates that is odd where the lattice has even ones alone.
     """
-    if LATTICES[growth.lattice].parity and sum(start) % 2:
-        raise InputError(where, f"a cell of the lattice {growth.lattice}, of even coordinate sum", f"{list(start)}")
+    x, y, z = start
+    try:
+        check_on_lattice((x, y, z), growth.cells)
+    except InputError as error:
+        raise InputError(where, error.expected, error.got, error.remedy) from None
 
 
 def body_text(body: Body) -> str:
@@ -119,7 +109,7 @@ def read_body_text(text: str, lattice: str) -> Cells:
         data = None
     match data:
         case {"lattice": str(name), "cells": [*rows], **more} if name == lattice and rows and not more:
-            return np.array([_as_cell(row) for row in rows], dtype=np.int64)
+            return np.array([as_cell(row) for row in rows], dtype=np.int64)
     raise InputError("body", f"a body on the lattice {lattice}, its cells in order of growth", describe(text))
 
 

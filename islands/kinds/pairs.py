@@ -8,7 +8,7 @@ import numpy as np
 
 from growth.blocks import BlockGrowth, stand
 from growth.blocks.body import Body
-from growth.blocks.lattice import LATTICES, Lattice
+from growth.blocks.lattice import Lattice
 from islands.kinds.bodies import BlockLoad, Cells, is_stable
 
 PAIR: Final = ("alone_first", "alone_second", "meet", "shared")
@@ -71,6 +71,6 @@ def paired(first: Cells, second: Cells, growth: BlockGrowth, load: BlockLoad) ->
     """
     cells = united(first, second)
     by_itself = grounded(cells, growth)
-    shared, meet = meetings(first, second, LATTICES[growth.lattice])
+    shared, meet = meetings(first, second, growth.cells)
     alone = [float(is_stable(stand(part, by_itself), by_itself, load)) for part in (first, second)]
     return stand(cells, growth), dict(zip(PAIR, (*alone, float(meet), float(shared)), strict=True))

@@ -124,9 +124,12 @@ def test_parts_vary_by_themselves() -> None:
     ("settings", "message"),
     [
         ({"starts": [[0, 0, 0]]}, "growth.starts: expected two cells"),
-        ({"starts": [[0, 0, 0], [1, 0]]}, "expected a cell: three whole numbers [x, y, z]"),
-        ({"starts": [[0, 0, 0], [0.5, 0, 0]]}, "expected a cell: three whole numbers [x, y, z]"),
-        ({"lattice": "isospatial", "starts": [[0, 0, 0], [1, 0, 0]]}, "of even coordinate sum, got [1, 0, 0]"),
+        ({"starts": [[0, 0, 0], [1, 0]]}, "expected a cell of three whole numbers: [x, y, z]"),
+        ({"starts": [[0, 0, 0], [0.5, 0, 0]]}, "expected a cell of three whole numbers: [x, y, z]"),
+        (
+            {"lattice": "isospatial", "starts": [[0, 0, 0], [1, 0, 0]]},
+            "whose coordinates add up to an even number, got [1, 0, 0]",
+        ),
     ],
 )
 def test_starts_are_checked(settings, message) -> None:

@@ -110,7 +110,7 @@ def test_a_partner_that_is_no_body_of_this_lattice_is_refused() -> None:
     for text in ("", "[]", '{"lattice":"cubic","cells":[]}', '{"lattice":"isospatial","cells":[[0,0,0]]}'):
         with pytest.raises(InputError, match="expected a body on the lattice cubic"):
             read_body_text(text, "cubic")
-    with pytest.raises(InputError, match="expected a cell: three whole numbers"):
+    with pytest.raises(InputError, match="expected a cell of three whole numbers"):
         read_body_text('{"lattice":"cubic","cells":[[0,0,0.5]]}', "cubic")
 
 
@@ -141,7 +141,7 @@ def test_scoring_tells_islands_apart_that_score_otherwise() -> None:
 
 def test_a_start_off_the_lattice_is_refused() -> None:
     with pytest.raises(
-        InputError, match=r"islands.isle.growth.start: expected a cell of the lattice isospatial, of even"
+        InputError, match=r"islands.isle.growth.start: expected cells of the isospatial lattice, whose coord"
     ):
         blocks(lattice="isospatial", start=[1, 0, 0])
     assert blocks(lattice="isospatial", start=[1, 0, 1]).scoring
