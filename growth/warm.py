@@ -8,15 +8,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from genome.genr8 import Genr8Genome
+from growth.blocks.warm import compile_kernels as compile_blocks
 from growth.environment.warm import compile_kernels as compile_environment
 from growth.hemls.warm import compile_kernels as compile_hemls
 
 
 def compile_kernels() -> None:
-    """Compile the kernels of genome mapping, environments and surface growth."""
+    """Compile the kernels of genome mapping, environments, surface growth and block growth."""
     Genr8Genome().mapper(Path()).map(range(200))
     compile_environment()
     compile_hemls()
+    compile_blocks()
 
 
 if __name__ == "__main__":

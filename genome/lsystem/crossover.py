@@ -48,14 +48,15 @@ def crossover(
     """
     if not first.rules or not second.rules:
         return first, second
-    children = first, second
+    one: LSystem | None = None
+    other: LSystem | None = None
     for _ in range(TRIES):
         i, j = _pair(first, second, rng)
         words = _crossed(first.rules[i].successor, second.rules[j].successor, rng, settings)
-        children = _child(first, i, words[0], settings), _child(second, j, words[1], settings)
-        if children[0] not in (None, first) and children[1] not in (None, second):
+        one, other = _child(first, i, words[0], settings), _child(second, j, words[1], settings)
+        if one is not None and other is not None and (one != first or other != second):
             break
-    return children[0] or first, children[1] or second
+    return one or first, other or second
 
 
 def _pair(first: LSystem, second: LSystem, rng: np.random.Generator) -> tuple[int, int]:

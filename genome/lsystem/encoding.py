@@ -63,7 +63,9 @@ def decode(text: str, where: str = "genotype") -> LSystem:
     _known(data, _KEYS, where)
     if data.get("format") != FORMAT or type(data["format"]) is not int:
         raise InputError(f"{where}: format", f"{FORMAT}, the version of this encoding", describe(data.get("format")))
-    rules, iterations, seed = data.get("rules"), data.get("iterations"), data.get("seed")
+    rules = data.get("rules")
+    iterations: Any = data.get("iterations")  # LSystem checks it, and the seed
+    seed: Any = data.get("seed")
     if not isinstance(rules, list):
         raise InputError(f"{where}: rules", "a list of rules", describe(rules))
     try:

@@ -120,8 +120,9 @@ class LSystem:
         Contexts are taken to match wherever they are wanted: a system that does not draw in this sense never draws.
         """
         shares = chances(self.rules)
-        whole = 1.0 - ROUNDING
-        after = {letter: letter if shares.get((letter, None, None), 0.0) < whole else "" for letter in LETTERS}
+        partial = {head[0] for head, chance in shares.items() if chance < 1.0 - ROUNDING}
+        goes = {letter for letter in LETTERS if letter not in partial and (letter, None, None) in shares}
+        after = {letter: "" if letter in goes else letter for letter in LETTERS}
         for rule in self.rules:
             after[rule.operand] += "".join(rule.successor.symbols)
         present = _letters("".join(self.axiom.symbols))

@@ -1,4 +1,12 @@
 """Growth of block bodies: words of bracketed L-systems, read by a turtle on a lattice (Senatore 2009, chapter 2).
 
 :mod:`~growth.blocks.lattice` says what cells there are and which touch; :mod:`~growth.blocks.body` is the form.
+:func:`grow` makes one from a genotype, :func:`stand` from given cells, :func:`read_body` from a file.
 """
+
+from growth.blocks.body import Body
+from growth.blocks.engine import derive, grow, stand
+from growth.blocks.files import read_body
+from growth.blocks.settings import BlockGrowth
+
+__all__ = ["BlockGrowth", "Body", "derive", "grow", "read_body", "stand"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from lsystem_strategies import systems, words
 
 from genome.errors import InputError
@@ -43,6 +43,7 @@ def test_a_file_becomes_the_system_that_it_says() -> None:
     )
 
 
+@settings(deadline=None)
 @given(systems())
 def test_a_written_system_is_read_back_equal(system: LSystem) -> None:
     assert decode(encode(system)) == system
@@ -54,6 +55,7 @@ def test_a_written_system_is_read_back_equal(system: LSystem) -> None:
             parse_blocks(text)
 
 
+@settings(deadline=None)
 @given(words())
 def test_a_written_word_is_read_back_equal_and_counts_what_is_written(word: Word) -> None:
     text = str(word)
@@ -123,6 +125,8 @@ def test_what_is_wrong_is_told_with_line_and_column(text: str, said: str) -> Non
         ("F", "F -> G", 0, True),
         ("F", "F -> G (0.5)", 1, True),
         ("F", "H < F -> G", 9, True),
+        ("F", "H < F -> G\nF -> G", 9, False),
+        ("F", "H < F -> G (0.9)\nF -> G", 9, True),
         ("G", "G -> H\nH -> F", 2, True),
         ("G", "G -> H\nH -> F", 1, False),
         ("[+G]", "G > H -> F", 1, True),

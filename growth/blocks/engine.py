@@ -1,0 +1,126 @@
+"""Growth of block bodies: rewriting, the turtle, and what stands around the skeleton (Senatore 2009, chapter 2)."""
+
+from __future__ import annotations
+
+import time
+from typing import Final
+
+import numpy as np
+
+from genome.lsystem import LSystem
+from growth.blocks import _kernels
+from growth.blocks.body import BOUNDARY, ENVELOPE, INTERNAL, Body, Cells
+from growth.blocks.program import Codes, compile_system, turns_of
+from growth.blocks.settings import BlockGrowth
+from growth.protocol import Clock, Failure
+
+NO_FLOOR: Final = -2 * _kernels.FARTHEST
+
+
+def grow(
+    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.monotonic, seed: int | None = None
+) -> Body | Failure:
+    """Grow a body from an L-system.
+
+    Parameters
+    ----------
+    system
+        The genotype.
+    growth
+        Lattice, ground, envelope and budget; the defaults where not given.
+    clock
+        Tells the time for the safety net behind the budget.
+    seed
+        Decides what rules with chances do, in place of the genotype's own.
+
+    Returns
+    -------
+    Body or Failure
+        A failure has the reason ``budget``, ``clock``, or ``boundary`` where all blocks fall into the supports.
+    """
+    growth = growth or BlockGrowth()
+    word = derive(system, growth, clock, seed)
+    if isinstance(word, Failure):
+        return word
+    lattice = growth.cells
+    cells, count = _kernels.walk(word, lattice.offsets, turns_of(lattice), lattice.heading, growth.max_blocks)
+    if count > growth.max_blocks:
+        return Failure("budget", f"more blocks than the {growth.max_blocks} that max_blocks allows")
+    body = stand(cells, growth)
+    if not len(body.internal):
+        return Failure("boundary", "every block lies in a support")
+    return body
+
+
+def derive(
+    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.monotonic, seed: int | None = None
+) -> Codes | Failure:
+    """Rewrite an L-system's axiom as often as it says; give the codes of the last word. Parameters as of :func:`grow`.
+
+    Each letter is replaced by the rule, of those whose contexts it has, that asks for most: both contexts, the left
+    one, the right one, none.
+    """
+    growth = growth or BlockGrowth()
+    deadline = clock() + growth.max_seconds
+    program = compile_system(system)
+    word = program.axiom
+    if word.size > growth.max_symbols:
+        return _too_long("the axiom has", word.size, growth)
+    state = np.array([system.seed if seed is None else seed], dtype=np.uint64)
+    for iteration in range(system.iterations):
+        chosen, total = _kernels.choose(
+            word, program.groups, program.contexts, program.spans, program.until, program.lengths, state
+        )
+        if total > growth.max_symbols:
+            return _too_long(f"iteration {iteration + 1} makes", total, growth)
+        word = _kernels.rewrite(word, chosen, total, program.successors, program.starts)
+        if clock() > deadline:
+            return Failure("clock", "the growth took longer than max_seconds")
+    return word
+
+
+def stand(internal: Cells, growth: BlockGrowth | None = None) -> Body:
+    """Stand a skeleton on its ground or supports, and wrap it.
+
+    Parameters
+    ----------
+    internal
+        (n, 3) int64, the cells of the skeleton in the order in which they were placed. Of equal ones the first counts;
+        those in a support do not count.
+    growth
+        Lattice, ground, supports and envelope; the defaults where not given. Its budget is not looked at.
+
+    Returns
+    -------
+    Body
+        Its boundary is empty where it misses a fixed ground. Cells of the envelope lie free, and not under the ground.
+    """
+    growth = growth or BlockGrowth()
+    lattice = growth.cells
+    internal = np.ascontiguousarray(internal, dtype=np.int64).reshape(-1, 3)
+    supports = np.array(growth.supports or (), dtype=np.int64).reshape(-1, 3)
+    internal = _kernels.distinct(internal, supports)
+    floor = NO_FLOOR
+    if growth.supports is not None:
+        boundary = supports
+    elif len(internal):
+        floor = int(internal[:, 2].min()) if growth.ground == "lowest" else growth.ground_level
+        boundary = _kernels.foundation(internal, lattice.offsets[lattice.beneath], floor)
+    else:
+        boundary = supports
+    wrap = np.empty((0, 3), dtype=np.int64)
+    if growth.envelope:
+        wrap = _kernels.envelope(internal, boundary, lattice.offsets, growth.envelope_below, floor)
+    cells = np.concatenate([internal, _ascending(wrap), _ascending(boundary)])
+    systems = np.repeat(
+        np.array([INTERNAL, ENVELOPE, BOUNDARY], dtype=np.uint8), [len(internal), len(wrap), len(boundary)]
+    )
+    return Body(lattice, cells, systems)
+
+
+def _ascending(cells: Cells) -> Cells:
+    return cells[np.lexsort((cells[:, 2], cells[:, 1], cells[:, 0]))]
+
+
+def _too_long(what: str, count: int, growth: BlockGrowth) -> Failure:
+    return Failure("budget", f"{what} {count} symbols where max_symbols allows {growth.max_symbols}")
