@@ -96,7 +96,14 @@ def _arms(body: Body, found: Layers) -> Floats:
     out = np.zeros((len(found.joints), 2, 6, 6))
     out[:, :, range(6), range(6)] = 1.0
     arm = found.points[:, np.newaxis] - body.cells[found.joints]
-    for row, column, axis, sign in ((0, 1, 2, 1), (0, 2, 1, -1), (1, 0, 2, -1), (1, 2, 0, 1), (2, 0, 1, 1), (2, 1, 0, -1)):
+    for row, column, axis, sign in (
+        (0, 1, 2, 1),
+        (0, 2, 1, -1),
+        (1, 0, 2, -1),
+        (1, 2, 0, 1),
+        (2, 0, 1, 1),
+        (2, 1, 0, -1),
+    ):
         out[:, :, row, 3 + column] = sign * arm[:, :, axis]
     return out
 
