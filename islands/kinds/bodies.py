@@ -25,6 +25,9 @@ from islands.individual import Evaluation
 
 Cells = NDArray[np.int64]
 
+COSTLY: Final = ("particles", "sun")
+"""Criteria that take longer than all others together, and are measured where they have a goal."""
+
 Cell = Annotated[tuple[int, int, int], BeforeValidator(as_cell)]
 
 
@@ -150,7 +153,8 @@ class Scoring:
         self, goals: Mapping[str, Mapping[str, Any]], own: Sequence[str], where: Callable[..., str], clock: Clock
     ) -> None:
         self.goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in goals.items()}
-        names = [name for name in dict.fromkeys([*BLOCK_CRITERIA, *self.goals]) if name not in own]
+        usual = [name for name in BLOCK_CRITERIA if name not in COSTLY]
+        names = [name for name in dict.fromkeys([*usual, *self.goals]) if name not in own]
         self._criteria: Final = {name: resolve(name, where("fitness", name)) for name in names}
         self._clock: Final = clock
 

@@ -12,7 +12,7 @@ from evaluators.blocks import BLOCK_CRITERIA
 from genome.errors import InputError
 from islands.individual import Evaluation
 from islands.kinds.blocks import FORMATS, BlocksKind
-from islands.kinds.bodies import read_body_text
+from islands.kinds.bodies import COSTLY, read_body_text
 from islands.kinds.meshes import read_mesh_text
 from islands.kinds.pairs import PAIR
 from islands.migration.channel import Migrant
@@ -31,7 +31,9 @@ def shown(biology, text: str, identity: int = 9) -> Migrant:
 def test_a_column_is_measured_by_every_criterion_and_stands() -> None:
     found = blocks(load={"axial_strength": 5, "torsion_strength": 1}).evaluate(system(COLUMN))
     told = scores(found)
-    assert set(told) == {*BLOCK_CRITERIA, *PAIR}
+    assert set(told) == {*BLOCK_CRITERIA, *PAIR} - {*COSTLY}
+    goals = {name: {"goal": "maximise"} for name in COSTLY}
+    assert set(scores(blocks(fitness=goals).evaluate(system(COLUMN)))) == {*BLOCK_CRITERIA, *PAIR}
     assert (told["height"], told["blocks"], told["ground"], told["span_x"]) == (5.0, 5.0, 1.0, 1.0)
     assert told["stability"] == pytest.approx(0.0, abs=1e-12), "its foot carries five blocks, and could no more"
     assert (told["alone_first"], told["alone_second"], told["meet"], told["shared"]) == (1.0, 0.0, 0.0, 0.0)
