@@ -7,6 +7,7 @@ import sys
 
 NAMES = (
     "growth",
+    "blocks_growth",
     "bnf_mapping",
     "mesh_queries",
     "start",

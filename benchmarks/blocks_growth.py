@@ -23,10 +23,10 @@ SYSTEM = parse_blocks(
     """
 axiom: F
 iterations: 5
-F -> F[+^F|-&F]F (0.7)
-F -> &F£F
+F -> F[+^F|-&F]+£F$ (0.7)
+F -> &+F£F
 G < F -> F
-seed: 29
+seed: 14602
 """,
     "benchmark",
 )

@@ -60,8 +60,8 @@ def joined(parts: Sequence[Bodies]) -> Bodies:
     )
 
 
-def surface_body(surface: Surface, front: Colour, back: Colour, line: float) -> Bodies:
-    """Give a surface: each face evenly shaded, each of its sides a line."""
+def surface_body(surface: Surface, front: Colour | Floats, back: Colour | Floats, line: float) -> Bodies:
+    """Give a surface: each face evenly shaded, its sides lines; one colour for all faces, or (F, 3) one for each."""
     triangles, faces = face_triangles(surface)
     corners = surface.vertices[triangles]
     starts, rings = surface.face_starts.astype(np.int64), surface.face_vertices.astype(np.int64)
@@ -77,7 +77,8 @@ def surface_body(surface: Surface, front: Colour, back: Colour, line: float) -> 
     whole = np.zeros((len(starts) - 1, 3))
     np.add.at(whole, faces, normals)
     shading = np.repeat(_unit(whole[faces])[:, None, :], 3, axis=1)
-    return _coloured(corners, shading, front, back, np.where(drawn, line, 0.0))
+    fronts, backs = (np.broadcast_to(colour, (len(starts) - 1, 3))[faces] for colour in (front, back))
+    return Bodies(corners, shading, fronts, backs, np.where(drawn, line, 0.0))
 
 
 def _side_keys(face: NDArray[np.int64], a: NDArray[np.int64], b: NDArray[np.int64], count: int) -> NDArray[np.int64]:

@@ -20,6 +20,7 @@ from genome.files import write_whole
 from growth.bodies import Bodies, Colour, joined, solid_body, surface_body
 from growth.camera import Camera, looking_at
 from growth.environment import Environment
+from growth.forms import triangulate
 from growth.light import TURNS, Ground, Rays, lit, sun_towards
 from growth.surface import Surface
 
@@ -75,6 +76,8 @@ def render(
     azimuth: float = -62.0,
     elevation: float = 27.0,
     samples: int = 2,
+    colours: Sequence[Floats] = (),
+    glass: Sequence[Surface] = (),
 ) -> Image:
     """Draw one or several surfaces in their environment.
 
@@ -90,6 +93,10 @@ def render(
         Where the viewer stands, in degrees; azimuth from x towards y.
     samples
         The picture is drawn this many times larger in both directions, then made smaller.
+    colours
+        (F, 3) sRGB from 0 to 1 of the faces of each surface; all or none are given.
+    glass
+        Closed surfaces that are drawn as thin glass.
 
     Returns
     -------
@@ -103,7 +110,7 @@ def render(
     from PIL import Image
 
     forms = [surfaces] if isinstance(surfaces, Surface) else list(surfaces)
-    stage = _staged(forms, environment, size, azimuth, elevation)
+    stage = _staged(_shown(forms, colours), glass, environment, size, azimuth, elevation)
     width, height = size
     rows = [_band(stage, top, min(top + BAND, height), samples) for top in range(0, height, BAND)]
     linear = np.concatenate(rows).reshape(height, samples, width, samples, 3).mean(axis=(1, 3))
@@ -132,22 +139,32 @@ def _png(image: Image) -> bytes:
     return stream.getvalue()
 
 
-def _staged(
-    forms: Sequence[Surface], environment: Environment | None, size: tuple[int, int], azimuth: float, elevation: float
-) -> _Stage:
+def _shown(forms: Sequence[Surface], colours: Sequence[Floats]) -> Bodies:
+    """Give the surfaces' triangles, each surface or face in its colour."""
     parts = []
     for index, form in enumerate(forms):
         if not np.isfinite(form.vertices).all():
             raise InputError("picture", "finite coordinates", "NaN or infinity")
-        front = FRONTS[index % len(FRONTS)]
-        back = (0.55 * front[0] + 0.4, 0.55 * front[1] + 0.4, 0.55 * front[2] + 0.38)
-        parts.append(surface_body(form, front, back, LINE))
+        front = np.array(colours[index] if colours else FRONTS[index % len(FRONTS)])
+        parts.append(surface_body(form, front, 0.55 * front + [0.4, 0.4, 0.38], LINE))
     shown = joined(parts)
     if not len(shown):
         raise InputError("picture", "a form with faces to draw", "none of three or more corners")
+    return shown
+
+
+def _staged(
+    shown: Bodies,
+    panes: Sequence[Surface],
+    environment: Environment | None,
+    size: tuple[int, int],
+    azimuth: float,
+    elevation: float,
+) -> _Stage:
     places = shown.corners.reshape(-1, 3)
     extent = max(float(np.linalg.norm(np.ptp(places, axis=0))), 1e-9)
     solids, glass, level = _surroundings(environment, places, extent)
+    glass += [solid_body(*triangulate(pane), GLASS, 0.5) for pane in panes]
     bodies = joined([shown, *solids])
     near = [part.corners.reshape(-1, 3) for part in [shown, *solids, *glass]]
     near = [part for part in near if np.linalg.norm(np.ptp(np.concatenate([places, part]), axis=0)) < 4.0 * extent]
@@ -158,17 +175,17 @@ def _staged(
         low, high = float(bodies.corners[..., 2].min()), float(bodies.corners[..., 2].max())
         # A flat form floats: its shadow would be thinner than the ground's tables can tell.
         level = low - max(0.003 * extent, 0.05 * extent - 0.5 * (high - low))
-    panes = joined(glass)
+    glazing = joined(glass)
     return _Stage(
         bodies,
-        panes,
+        glazing,
         Ground(rays, level, suns),
         camera,
         suns,
         rays,
         len(shown),
         Rays(shown.corners),
-        Rays(panes.corners),
+        Rays(glazing.corners),
         environment,
     )
 

@@ -8,6 +8,7 @@ from typing import Final
 
 from evaluators.blocks.load.frame import frame
 from evaluators.blocks.load.galasyn import galasyn
+from evaluators.blocks.load.limit import limit
 from evaluators.blocks.load.load import Load
 from evaluators.blocks.load.rigid import rigid
 from evaluators.blocks.load.settings import LoadSettings
@@ -16,7 +17,9 @@ from growth.blocks.body import Body
 
 Model = Callable[[Body, LoadSettings], Load]
 
-MODELS: Final[Mapping[str, Model]] = MappingProxyType({"galasyn": galasyn, "rigid": rigid, "frame": frame})
+MODELS: Final[Mapping[str, Model]] = MappingProxyType(
+    {"galasyn": galasyn, "rigid": rigid, "frame": frame, "limit": limit}
+)
 """The models by the names that settings use."""
 
 

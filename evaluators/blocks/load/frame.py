@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evaluators.blocks.load.equations import Equations, equations
 from evaluators.blocks.load.layers import Layers, layers
 from evaluators.blocks.load.load import Load, loaded
 from evaluators.blocks.load.settings import LoadSettings
-from growth.blocks.body import BOUNDARY, Body
+from growth.blocks.body import Body
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -55,61 +59,58 @@ def frame(body: Body, settings: LoadSettings, bending: float = 1.0) -> Load:
     Load
         In balance block by block: ``residual`` stays under 1e-9.
     """
+    found = layers(body, envelope_counts=settings.envelope_counts)
+    system = equations(body, found)
+    springs = beam_springs(body, found, settings, bending)
+    carried, worst = balanced(system, springs, np.zeros((len(found.joints), 6)))
+    carried = carried * settings.weight
+    return loaded(found.joints, (carried[:, :3], carried[:, 3:]), found.floating, worst, settings)
+
+
+def balanced(system: Equations, springs: Floats, carried: Floats) -> tuple[Floats, float]:
+    """Add to what joints carry what the frame does with the unit weights that are not in balance with it.
+
+    Parameters
+    ----------
+    system, springs
+        The frame: (j, 6, 6) stiffness of each joint at its middle.
+    carried
+        (j, 6) float64, zeros or something near equilibrium.
+
+    Returns
+    -------
+    carried : (j, 6) float64
+    worst : float
+        The largest component of any block's imbalance, in units of its weight.
+    """
     from scipy.sparse.linalg import splu
 
-    found = layers(body, envelope_counts=settings.envelope_counts)
-    free = np.flatnonzero((found.depth > 0) & (body.systems != BOUNDARY))
-    if not free.size:
-        nothing = np.zeros((len(found.joints), 3))
-        return loaded(found.joints, (nothing, nothing.copy()), found.floating, 0.0, settings)
-    arms = _arms(body, found)
-    springs = _springs(body, found, np.array(settings.stiffness)[found.kinds], bending)
-    row = np.full(len(body.cells), -1, dtype=np.int64)
-    row[free] = np.arange(free.size)
-    ends = row[found.joints]
+    if not system.count:
+        return carried, 0.0
     solver = splu(
-        _stiffness(arms, springs, ends, free.size),
+        _stiffness(system, springs),
         permc_spec="MMD_AT_PLUS_A",
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
     )
-    weight = np.zeros((free.size, 6))
-    weight[:, 2] = -1.0
-    carried = np.zeros((len(ends), 6))
-    missing, worst = weight, np.inf
+    missing = system.weight - system.sums(carried)
+    worst = np.inf
     for _ in range(ROUNDS):
-        moved = np.vstack([solver.solve(missing.ravel()).reshape(-1, 6), np.zeros(6)])  # row -1: clamped
-        trial = carried + _forces(arms, springs, moved[ends])
-        missing = weight - _sums(arms, trial, ends, free.size)
+        moved = solver.solve(missing.ravel()).reshape(-1, 6)
+        trial = carried + np.einsum("jab,jb->ja", springs, system.opened(moved))
+        missing = system.weight - system.sums(trial)
         now = float(np.abs(missing).max())
         if now >= worst:
             break
         carried, worst = trial, now
         if worst <= BALANCED:
             break
-    carried *= settings.weight
-    return loaded(found.joints, (carried[:, :3], carried[:, 3:]), found.floating, worst, settings)
+    return carried, worst
 
 
-def _arms(body: Body, found: Layers) -> Floats:
-    """Give the (j, 2, 6, 6) matrices that take a centre's displacement and turn to the joint's: u + turn x arm."""
-    out = np.zeros((len(found.joints), 2, 6, 6))
-    out[:, :, range(6), range(6)] = 1.0
-    arm = found.points[:, np.newaxis] - body.cells[found.joints]
-    for row, column, axis, sign in (
-        (0, 1, 2, 1),
-        (0, 2, 1, -1),
-        (1, 0, 2, -1),
-        (1, 2, 0, 1),
-        (2, 0, 1, 1),
-        (2, 1, 0, -1),
-    ):
-        out[:, :, row, 3 + column] = sign * arm[:, :, axis]
-    return out
-
-
-def _springs(body: Body, found: Layers, stiffness: Floats, bending: float) -> Floats:
+def beam_springs(body: Body, found: Layers, settings: LoadSettings, bending: float = 1.0) -> Floats:
     """Give the (j, 6, 6) stiffness of each joint at its middle."""
+    stiffness = np.array(settings.stiffness)[found.kinds]
     along = (body.cells[found.joints[:, 1]] - body.cells[found.joints[:, 0]]).astype(np.float64)
     length = np.linalg.norm(along, axis=1)
     along /= length[:, np.newaxis]
@@ -125,12 +126,12 @@ def _springs(body: Body, found: Layers, stiffness: Floats, bending: float) -> Fl
     return out
 
 
-def _stiffness(arms: Floats, springs: Floats, ends: Ints, count: int):  # type: ignore[no-untyped-def] # noqa: ANN202 - scipy's
-    """Assemble the (6 count, 6 count) stiffness of the free blocks."""
+def _stiffness(system: Equations, springs: Floats) -> csc_array:
+    """Assemble the (6 count, 6 count) stiffness of the blocks."""
     from scipy.sparse import coo_array
 
     rows, columns, values = [], [], []
-    index = np.arange(6)
+    index, ends, arms = np.arange(6), system.ends, system.arms
     for a in (0, 1):
         for b in (0, 1):
             both = np.flatnonzero((ends[:, a] >= 0) & (ends[:, b] >= 0))
@@ -140,18 +141,4 @@ def _stiffness(arms: Floats, springs: Floats, ends: Ints, count: int):  # type: 
             columns.append(np.broadcast_to(6 * ends[both, b, np.newaxis, np.newaxis] + index, block.shape))
             values.append(block)
     flat = [np.concatenate([part.ravel() for part in parts]) for parts in (values, rows, columns)]
-    return coo_array((flat[0], (flat[1], flat[2])), shape=(6 * count, 6 * count)).tocsc()
-
-
-def _forces(arms: Floats, springs: Floats, moved: Floats) -> Floats:
-    """Give what the second half of each joint does to the first: (j, 6)."""
-    opened = np.einsum("jab,jb->ja", arms[:, 1], moved[:, 1]) - np.einsum("jab,jb->ja", arms[:, 0], moved[:, 0])
-    return np.einsum("jab,jb->ja", springs, opened)
-
-
-def _sums(arms: Floats, carried: Floats, ends: Ints, count: int) -> Floats:
-    """Give what the free blocks do to their joints, summed at each centre: (count, 6)."""
-    out = np.zeros((count + 1, 6))
-    for end, sign in ((0, -1.0), (1, 1.0)):
-        np.add.at(out, ends[:, end], sign * np.einsum("jab,ja->jb", arms[:, end], carried))
-    return out[:count]
+    return coo_array((flat[0], (flat[1], flat[2])), shape=(6 * system.count, 6 * system.count)).tocsc()
