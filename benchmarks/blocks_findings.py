@@ -1,9 +1,9 @@
 """What Senatore's thesis finds of evolved block bodies, measured anew over ten seeds each.
 
 ``python -m benchmarks.blocks_findings`` runs the experiments named in ``MEASURES`` with seeds 1 to 10, two at a time
-(some eight minutes), and prints a line for each measure: medians over the seeds of both sides, how many seeds agree with
-the thesis, and the two-sided p of Wilcoxon's signed-rank test. Nothing is expected of the answers: whatever comes out is
-what docs/blocks.md reports.
+(some eight minutes), and prints a line for each measure: medians over the seeds of both sides, how many seeds agree
+with the thesis, and the two-sided p of Wilcoxon's signed-rank test. Nothing is expected of the answers: whatever comes
+out is what docs/blocks.md reports.
 """
 
 from __future__ import annotations

@@ -198,15 +198,16 @@ def check_formats(formats: Sequence[str]) -> None:
 
 def write_body(body: Body, growth: BlockGrowth, load: BlockLoad, path: Path, facts: Facts) -> None:
     """Write a body, coloured by its joints' forces where the format has colours and the body could be loaded."""
-    from growth.blocks.forms import body_surface, write_form
-
-    if path.suffix == ".png":
-        from growth.pictures import render, write_png
-
-        write_png(render(body_surface(body)), path)
-        return
     structure = structure_of(body, growth, load)
     forces = None if isinstance(structure, Failure) else structure.load.by_cell(body)
+    if path.suffix == ".png":
+        from growth.blocks.pictures import body_picture
+        from growth.pictures import write_png
+
+        write_png(body_picture(body, forces), path)
+        return
+    from growth.blocks.forms import write_form
+
     write_form(body, path, path.stem, facts, forces)
 
 

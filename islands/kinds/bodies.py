@@ -18,7 +18,7 @@ from evaluators.fitness import Goal, total
 from genome.errors import InputError
 from genome.settings import describe
 from growth.blocks import BlockGrowth
-from growth.blocks.body import BOUNDARY, Body
+from growth.blocks.body import ENVELOPE, INTERNAL, Body
 from growth.blocks.settings import as_cell, check_on_lattice
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
@@ -118,10 +118,9 @@ def read_body_text(text: str, lattice: str) -> Cells:
 
 def outside_of(body: Body) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Give the outer faces of a body without its foundation: vertices (v, 3) and triangles (t, 3), fronts outward."""
-    from growth.blocks.forms import body_surface
+    from growth.blocks.skin import body_surface
 
-    shown = body.systems != BOUNDARY
-    surface = body_surface(Body(body.lattice, body.cells[shown], body.systems[shown]))
+    surface = body_surface(body, (INTERNAL, ENVELOPE))
     starts, ring = surface.face_starts, surface.face_vertices
     faces = [ring[start:end] for start, end in pairwise(starts)]
     triangles = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
