@@ -117,12 +117,15 @@ class PairBiology:
             return []
         body, files = self._joined(skeletons)[0], []
         for suffix in formats or USUAL:
+            path = stem.with_name(f"{stem.name}.{suffix}")
             if suffix == "blocks":
                 files += self._whole.write_forms(genotype, stem, ("blocks",), facts)
+                continue
+            if suffix == "png":
+                _draw(body, skeletons[0], path)
             else:
-                path = stem.with_name(f"{stem.name}.{suffix}")
                 write_body(body, self._growth, self._growth.load, path, facts)
-                files.append(path)
+            files.append(path)
         return files
 
     def _scored(self, genotype: Parts) -> Evaluation:
@@ -146,6 +149,19 @@ class PairBiology:
 
     def _joined(self, skeletons: tuple[Cells, Cells]) -> tuple[Body, dict[str, float]]:
         return paired(*skeletons, self._growth, self._growth.load)
+
+
+def _draw(body: Body, first: Cells, path: Path) -> None:
+    """Draw a pair, each part in a colour of its own; cells that both share are drawn as the first's."""
+    from growth.blocks.skin import body_surface
+    from growth.pictures import render, write_png
+
+    internal, boundary = body.internal, body.boundary
+    _, here = np.unique(np.concatenate([first, internal]), axis=0, return_inverse=True)
+    own = np.isin(here[len(first) :], here[: len(first)])
+    parts = [internal[own], internal[~own], boundary]
+    shown = [Body(body.lattice, cells, np.zeros(len(cells), dtype=np.uint8)) for cells in parts if len(cells)]
+    write_png(render([body_surface(one) for one in shown], elevation=18.0), path)
 
 
 @final
