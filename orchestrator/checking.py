@@ -9,7 +9,7 @@ from typing import Final
 from genome.errors import InputError
 from genome.yaml import load_yaml
 
-LATER: Final = (".body.json", ".blocks", ".tl", ".plan")
+LATER: Final = (".tl", ".plan")
 """Suffixes of files whose engines are not built yet."""
 
 ENVIRONMENT_KEYS: Final = frozenset({"gravity", "attractors", "repellers", "boundaries"})
@@ -19,7 +19,7 @@ def refuse_later(path: Path) -> None:
     """Refuse a file whose engine is not built yet, by its suffix."""
     for suffix in LATER:
         if path.name.endswith(suffix):
-            remedy = "this version grows .hemls files"
+            remedy = "this version grows .hemls, .blocks and .body.json files"
             raise InputError(str(path), "a file of a kind that is built", f"'{suffix}', which comes later", remedy)
 
 
@@ -47,7 +47,8 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     Parameters
     ----------
     path
-        An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``), or a grammar (``.bnf``).
+        An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``, ``.blocks``), a block
+        body (``.body.json``), or a grammar (``.bnf``).
     overrides
         For an experiment, as ``--set`` takes them.
 
@@ -61,11 +62,17 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         For the first thing that is wrong.
     """
     refuse_later(path)
-    checks: Mapping[str, Callable[[Path], str]] = {".hemls": _rules, ".bnf": _grammar}
-    if path.suffix in checks:
-        if overrides:
-            raise InputError("--set", "an experiment to set something in", str(path))
-        return checks[path.suffix](path), ()
+    checks: Mapping[str, Callable[[Path], str]] = {
+        ".hemls": _rules,
+        ".blocks": _blocks,
+        ".body.json": _body,
+        ".bnf": _grammar,
+    }
+    for suffix, reads in checks.items():
+        if path.name.endswith(suffix):
+            if overrides:
+                raise InputError("--set", "an experiment to set something in", str(path))
+            return reads(path), ()
     if path.suffix in (".yaml", ".yml"):
         if _is_environment(path):
             from growth.environment import load_environment
@@ -75,7 +82,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    raise InputError(str(path), "a .yaml, .hemls or .bnf file", f"'{path.suffix or path.name}'")
+    raise InputError(str(path), "a .yaml, .hemls, .blocks, .body.json or .bnf file", f"'{path.suffix or path.name}'")
 
 
 def _is_environment(path: Path) -> bool:
@@ -90,6 +97,20 @@ def _rules(path: Path) -> str:
 
     parse_system(read_text(path, "a rule file"), str(path))
     return "rules"
+
+
+def _blocks(path: Path) -> str:
+    from genome.lsystem import parse_blocks
+
+    parse_blocks(read_text(path, "a rule file"), str(path))
+    return "rules"
+
+
+def _body(path: Path) -> str:
+    from growth.blocks import read_body
+
+    read_body(path)
+    return "body"
 
 
 def _grammar(path: Path) -> str:

@@ -26,8 +26,9 @@ class Request:
     until: float | None
     environment: Path | None
     overrides: Sequence[str]
-    seed: int
+    seed: int | None
     output: Path | None
+    forces: bool = False
 
 
 Engine = Callable[[Request], "dict[str, Any] | str"]
@@ -43,9 +44,10 @@ def engine_for(path: Path) -> Engine:
         When its suffix belongs to none that is built.
     """
     refuse_later(path)
-    if path.suffix not in ENGINES:
-        raise InputError(str(path), f"a rule file ({', '.join(ENGINES)})", f"'{path.suffix or path.name}'")
-    return ENGINES[path.suffix]
+    for suffix, engine in ENGINES.items():
+        if path.name.endswith(suffix):
+            return engine
+    raise InputError(str(path), f"a rule file ({', '.join(ENGINES)})", f"'{path.suffix or path.name}'")
 
 
 def grow_surface(request: Request) -> dict[str, Any] | str:
@@ -64,8 +66,10 @@ def grow_surface(request: Request) -> dict[str, Any] | str:
 
     if request.until is not None:
         raise InputError("--time", "a timed system (.tl)", str(request.file), "use --steps")
+    if request.forces:
+        raise InputError("--forces", "a block body (.blocks, .body.json)", str(request.file))
     settings = validated(SurfaceGrowth, _settings(request), "--set")
-    _check_output(request.output)
+    check_output(request.output, FORMS)
     system = parse_system(read_text(request.file, "a rule file"), str(request.file))
     environment = Environment.empty() if request.environment is None else load_environment(request.environment)
     surface = grow(system, settings, environment, time.perf_counter)
@@ -96,11 +100,18 @@ def _settings(request: Request) -> dict[str, Any]:
     return given
 
 
-def _check_output(output: Path | None) -> None:
+def check_output(output: Path | None, forms: Sequence[str]) -> None:
+    """Refuse a file that cannot be written, before anything is grown.
+
+    Raises
+    ------
+    InputError
+        When its suffix is none of ``forms``, or its folder is not there.
+    """
     if output is None:
         return
-    if output.suffix.lower() not in FORMS:
-        raise InputError("-o", f"a file that ends in {', '.join(FORMS)}", f"'{output}'")
+    if output.suffix.lower() not in forms:
+        raise InputError("-o", f"a file that ends in {', '.join(forms)}", f"'{output}'")
     if not output.parent.is_dir():
         raise InputError("-o", "a file in a folder that exists", f"'{output}'")
 
@@ -116,5 +127,17 @@ def _write(surface: Surface, environment: Any, output: Path) -> None:  # noqa: A
         write_form(surface, output)
 
 
-ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface}
+def _blocks(request: Request) -> dict[str, Any] | str:
+    from orchestrator.growing_blocks import grow_blocks
+
+    return grow_blocks(request)
+
+
+def _body(request: Request) -> dict[str, Any] | str:
+    from orchestrator.growing_blocks import measure_body
+
+    return measure_body(request)
+
+
+ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface, ".blocks": _blocks, ".body.json": _body}
 """The engines by the suffix of the files that they grow."""

@@ -14,16 +14,18 @@ from orchestrator.commands._options import emit, example, json_option
     epilog=example(
         "atoll grow experiments/systems/square.hemls --steps 4 -o square.glb",
         "atoll grow experiments/systems/triangle.hemls --environment site.env.yaml --set scale=1.3 --json",
+        "atoll grow experiments/systems/arch.blocks --set load.axial_strength=30 --forces -o arch.png",
     ),
 )
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--steps", type=int, help="Derivation steps.")
+@click.option("--steps", type=int, help="Derivation steps, or iterations.")
 @click.option("--time", "until", type=float, help="For timed systems: the time to grow to.")
 @click.option("--environment", type=click.Path(path_type=Path), help="An environment file; empty space without.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="A setting of growth, such as scale.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, help="For systems that draw at random.")
+@click.option("--seed", type=click.IntRange(min=0), help="For systems that draw at random, in place of their own.")
+@click.option("--forces", is_flag=True, help="For block bodies: what each joint carries; the form is coloured by it.")
 @click.option("-o", "output", type=click.Path(path_type=Path, dir_okay=False),
-              help="The form's file: .glb, .obj, .ply, .stl or .png.")  # fmt: skip
+              help="The form's file: .glb, .obj, .stl or .png; .ply for surfaces, .npz for block bodies.")  # fmt: skip
 @json_option
 def command(
     file: Path,
@@ -31,21 +33,26 @@ def command(
     until: float | None,
     environment: Path | None,
     overrides: tuple[str, ...],
-    seed: int,
+    seed: int | None,
+    forces: bool,
     output: Path | None,
     as_json: bool,
 ) -> None:
-    """Grow one form from FILE, a rule file; the engine goes by its suffix."""
+    """Grow one form from FILE, a rule file (or measure a block body); the engine goes by its suffix."""
     from orchestrator.cli import Complaint
     from orchestrator.growing import Request, engine_for
 
     engine = engine_for(file)
-    grown = engine(Request(file, steps, until, environment, overrides, seed, output))
+    grown = engine(Request(file, steps, until, environment, overrides, seed, output, forces))
     if isinstance(grown, str):
         raise Complaint(grown, 1)
     if as_json:
         emit(grown)
         return
     for key, value in grown.items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            for place, row in enumerate(value):
+                click.echo(f"{key}.{place}: {' '.join(f'{name}={row[name]}' for name in row)}")
+            continue
         shown = f"{value:.6g}" if isinstance(value, float) else value
         click.echo(f"{key}: {shown}")

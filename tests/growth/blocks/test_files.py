@@ -8,8 +8,11 @@ from pathlib import Path
 import pytest
 
 from genome.errors import InputError
+from genome.lsystem import LSystemGenome, decode, encode, format_blocks, parse_blocks
 from genome.settings import validated
 from growth.blocks import BlockGrowth, read_body
+
+PAGE = Path(__file__).resolve().parents[3] / "docs" / "formats" / "blocks.md"
 
 
 def written(tmp_path: Path, data: object) -> Path:
@@ -100,3 +103,29 @@ def test_settings_that_make_no_sense_are_told(data: dict[str, object], said: str
 def test_settings_take_what_they_write() -> None:
     settings = validated(BlockGrowth, {"supports": [[1, 2, 3]], "ground": "fixed"}, "x")
     assert validated(BlockGrowth, settings.model_dump(mode="json"), "x") == settings
+
+
+def test_the_page_of_the_format_says_what_is_so(tmp_path: Path) -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    blocks = [block.partition("\n")[::2] for block in text.split("```")[1::2]]
+    (example,) = (code for kind, code in blocks if not kind)
+    tree = (PAGE.parents[2] / "experiments" / "systems" / "tree.blocks").read_text(encoding="utf-8")
+    assert example == tree
+    assert parse_blocks(format_blocks(parse_blocks(tree))) == parse_blocks(tree)
+    genotype, body = (code.strip() for kind, code in blocks if kind == "json")
+    assert encode(decode(genotype)) == genotype
+    assert len(read_body(written(tmp_path, body)).cells) == 4
+    for model in (BlockGrowth(), LSystemGenome()):
+        rows = {
+            name.strip("` "): row
+            for row in text.split("\n")
+            if row.startswith("| `")
+            for name in row[2:].split("|")[0].split(",")
+        }
+        for name in type(model).model_fields:
+            assert name in rows, name
+            value = getattr(model, name)
+            shown = str(list(value)) if isinstance(value, tuple) else str(value)
+            shown = shown.lower() if isinstance(value, bool) else shown.removesuffix(".0")
+            if name not in ("mutations", "supports", "axiom", "max_symbols", "max_depth"):
+                assert rows[name].split(" | ")[1].strip("`") == shown, name
