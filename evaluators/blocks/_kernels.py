@@ -154,7 +154,7 @@ def first_hits(cells: Ints, sides: Ints, starts: Floats, within: Ints, ways: Flo
             for axis in range(3):
                 if side >= 0:
                     at[axis] += sides[side, axis]
-                # left for good: beyond the cells, on the way out
-                if (at[axis] > high[axis] and ways[r, axis] >= 0.0) or (at[axis] < low[axis] and ways[r, axis] <= 0.0):
-                    ahead = False
+                # left for good: on the way out, beyond all that cells reach (one unit at most from their centres)
+                over = at[axis] > high[axis] + 1 and ways[r, axis] >= 0.0
+                ahead = ahead and not over and not (at[axis] < low[axis] - 1 and ways[r, axis] <= 0.0)
     return out

@@ -52,7 +52,8 @@ def particles(structure: Structure) -> float:
     entry[rows, axis] = towards[rows, axis] > 0
     entry[rows, (axis + 1) % 3] = within
     entry[rows, (axis + 2) % 3] = drawn[:, 3]
-    starts = low + entry * size + 0.5 * towards
+    away = np.linalg.norm(np.ptp(body.cells, axis=0)) + 2.0  # beyond walls that stand around the body
+    starts = low + entry * size + away * towards
     met = hits(body, starts, cells_at(starts, body.lattice), -towards)
     caught = (met >= 0) & (body.systems[met] != BOUNDARY)
     return float(section[caught].sum() / COUNT)

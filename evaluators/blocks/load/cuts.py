@@ -53,4 +53,5 @@ def cuts(body: Body, settings: LoadSettings) -> Cuts:
     found = layers(body, envelope_counts=settings.envelope_counts)
     part, counts, centres = kernels.parts_above(body.cells, found.depth, found.joints)
     stiffness = np.array(settings.stiffness)[found.kinds]
-    return Cuts(found, part, counts * settings.weight, centres, stiffness)
+    weights = counts.astype(np.float64) * settings.weight
+    return Cuts(found, part, weights, centres, stiffness)
