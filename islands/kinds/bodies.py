@@ -14,6 +14,7 @@ from pydantic import BeforeValidator
 
 from evaluators.blocks import BLOCK_CRITERIA, Structure, resolve, score
 from evaluators.blocks.load import LoadSettings, analyse, grown_under_load
+from evaluators.blocks.load.layers import layers
 from evaluators.fitness import Goal, total
 from genome.errors import InputError
 from genome.settings import describe
@@ -55,16 +56,14 @@ def structure_of(body: Body, growth: BlockGrowth, load: BlockLoad) -> Structure 
         return Failure("single", f"a body of {count} block{'s' if count != 1 else ''}, at least two make a structure")
     if not len(body.boundary):
         return Failure("ground", "the body touches no ground")
+    floating = layers(body, envelope_counts=load.envelope_counts).floating
+    if floating.size:
+        x, y, z = body.cells[int(floating[0])].tolist()
+        return Failure("floating", f"{floating.size} blocks are joined to no ground, one at ({x},{y},{z})")
     found = grown_under_load(body, growth, load)
-    if not isinstance(found, Failure):
-        return Structure(body, found)
-    if found.reason != "unstable":
-        return found
-    whole = analyse(body, load)
-    if whole.floating.size:
-        x, y, z = body.cells[int(whole.floating[0])].tolist()
-        return Failure("floating", f"{whole.floating.size} blocks are joined to no ground, one at ({x},{y},{z})")
-    return found if load.required else Structure(body, whole)
+    if isinstance(found, Failure):
+        return found if load.required or found.reason != "unstable" else Structure(body, analyse(body, load))
+    return Structure(body, found)
 
 
 def is_stable(body: Body, growth: BlockGrowth, load: BlockLoad) -> bool:
