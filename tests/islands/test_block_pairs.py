@@ -49,6 +49,12 @@ def test_the_union_holds_each_cell_once_and_both_grow_at_the_same_time(first, se
     assert [time(row) for row in rows] == sorted(time(row) for row in rows)
 
 
+def test_of_blocks_that_grow_at_once_the_first_body_s_come_first() -> None:
+    both = [row for pair in zip(FIRST.tolist(), SECOND.tolist(), strict=True) for row in pair]
+    assert united(FIRST, SECOND).tolist() == both
+    assert united(SECOND, FIRST).tolist() != both
+
+
 @given(cells, cells)
 def test_meetings_are_as_counted_one_by_one(first, second) -> None:
     own, other = ({tuple(row) for row in one.tolist()} for one in (first, second))
