@@ -16,9 +16,9 @@ REMEMBERED: Final = 4
 
 @final
 class Biologies:
-    """Makes biologies, and remembers them by group and goals: all in which those of a run may differ.
+    """Makes biologies, and remembers them by group, goals and growth: all in which those of a run may differ.
 
-    An island that is steered to other goals than its group's calls for another one.
+    An island that is steered to other goals or strengths than its group's calls for another one.
 
     Parameters
     ----------
@@ -39,11 +39,11 @@ class Biologies:
             When its kind makes none of them.
         """
         group = self._made.setdefault(spec.group, {})
-        goals = json.dumps(dict(spec.fitness), sort_keys=True)
-        found = group.pop(goals, None)
+        settings = json.dumps([dict(spec.fitness), dict(spec.growth)], sort_keys=True)
+        found = group.pop(settings, None)
         if found is None:
             found = resolve_kind(spec.kind, spec.where("kind")).build(spec, self._clock)
-        group[goals] = found
+        group[settings] = found
         if len(group) > REMEMBERED:
             del group[next(iter(group))]
         return found

@@ -29,7 +29,7 @@ from islands.migration.channel import Edge, Packet
 from islands.migration.departures import Bundle, Departures, Standing, bundled
 from islands.migration.gate import Adapters, Gate
 from islands.migration.routes import Routes
-from islands.reception import Arrived, reason_of, received, rescored
+from islands.reception import Arrived, reason_of, received, rescored, steered_reason
 from islands.regime import Build, Regimes
 from islands.registrar import Registrar
 from islands.selection import ranked
@@ -68,7 +68,7 @@ class Island(Generic[G]):
         The built adapters of the edges that end here and have one; see
         :func:`islands.migration.adapters.adapters_into`.
     build
-        Makes the biology of goals that an intervention has changed; islands that share one share what it makes.
+        Makes the biology of goals or strengths that were steered; islands that share one share what it makes.
     """
 
     def __init__(
@@ -181,8 +181,8 @@ class Island(Generic[G]):
         """
         subject = changed(Subject(self.spec, state.deme, state.steered), interventions, registrar)
         held, best = state.held, state.best
-        are_goals_new = subject.steered.goals != state.steered.goals
-        if others or held is not NOTHING or are_goals_new:
+        is_measure_new = subject.steered.measure != state.steered.measure
+        if others or held is not NOTHING or is_measure_new:
             live = self._routes.live(self.spec.number, state.epoch)
             held = received(held if live is None else held.only(live), others, registrar)
             contexts = self._regimes.of(subject.steered).contexts
@@ -190,7 +190,8 @@ class Island(Generic[G]):
             if context.mishap and others:
                 registrar.note("holdings", {"detail": context.mishap})
             if context.scoring != (state.scoring or self._regimes.usual.contexts.alone.scoring):
-                reason = "weights" if are_goals_new else reason_of(state.scoring, contexts.among(held).scoring)
+                reason = steered_reason(state.steered, subject.steered)
+                reason = reason or reason_of(state.scoring, contexts.among(held).scoring)
                 subject = subject._replace(deme=rescored(subject.deme, reason, registrar))
                 best = max((one.fitness for one in subject.deme if one.fitness is not None), default=None)
         return joined(subject, interventions, registrar), held, best
@@ -214,7 +215,8 @@ class Island(Generic[G]):
         if not places:
             return deme
         count = self._scheme.offspring(settings, places, len(free))
-        births = breed(registrar.context.biology, order, count, settings, streams)
+        breeders = self._scheme.breeders(settings, self.spec.population, order)
+        births = breed(registrar.context.biology, breeders, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
         return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
 

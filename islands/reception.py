@@ -10,6 +10,7 @@ from islands.migration.channel import Channel, Edge, Migrant, Packet
 from islands.records import Crossing
 from islands.registrar import Registrar
 from islands.state import Deme
+from islands.steered import Steered
 
 G = TypeVar("G")
 Arrived = tuple[Edge, Packet]
@@ -29,6 +30,13 @@ def received(held: Holdings, others: Sequence[Arrived], registrar: Registrar[G])
     for channel, partners in shown.items():
         held = archived(held, channel, partners)
     return held
+
+
+def steered_reason(before: Steered, after: Steered) -> str:
+    """Say why a deme is scored again that is steered otherwise than before; empty where it scores as it did."""
+    if after.goals != before.goals:
+        return "weights"
+    return "strengths" if after.strengths != before.strengths else ""
 
 
 def reason_of(before: str, among: str) -> str:

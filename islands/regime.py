@@ -35,7 +35,7 @@ class Regimes(Generic[G]):
     channels
         All channels that reach it, by number.
     build
-        Makes the biology of changed goals.
+        Makes the biology of changed goals or strengths.
     """
 
     def __init__(self, spec: IslandSpec, biology: Biology[G], channels: Sequence[Channel], build: Build) -> None:
@@ -49,13 +49,13 @@ class Regimes(Generic[G]):
     def of(self, steered: Steered) -> Regime[G]:
         """Give the regime of an island that is steered so."""
         last, regime = self._made
-        if steered.goals == last.goals and steered.rates == last.rates:
+        if steered.measure == last.measure and steered.rates == last.rates:
             return regime
         spec = steered.spec(self._spec)
         contexts = regime.contexts
-        if not steered.goals:
+        if steered.measure == UNSTEERED.measure:
             contexts = self.usual.contexts
-        elif steered.goals != last.goals:
+        elif steered.measure != last.measure:
             contexts = Contexts(self._build(spec), self._channels)
         self._made = (steered, Regime(spec.algorithm, contexts))
         return self._made[1]

@@ -48,3 +48,49 @@ def tournaments(size: int, entrants: int, rounds: int, rng: np.random.Generator)
     """
     winners: NDArray[np.int64] = rng.integers(0, size, size=(rounds, entrants)).min(axis=1)
     return winners
+
+
+def roulettes(order: Sequence[Individual[G]], rounds: int, rng: np.random.Generator) -> NDArray[np.int64]:
+    """Spin a roulette wheel over a ranked deme: each member as likely as its weight says (Goldberg 1989).
+
+    A member weighs what its fitness is above the worst valid one's, so that fitness may be negative; the worst and the
+    invalid weigh nothing. Where all are alike the valid are as likely as each other, and where none is valid all are.
+    Who is promoted stands before better members, and weighs as much as the best of them.
+
+    Parameters
+    ----------
+    order
+        The deme, best first; at least one member.
+    rounds
+        How many are drawn, with replacement.
+    rng
+        The stream; one number a round.
+
+    Returns
+    -------
+    (rounds,) int64, the places of those drawn.
+    """
+    shares = np.cumsum(_weights(order))
+    drawn = np.searchsorted(shares, rng.random(rounds) * shares[-1], side="right")
+    # The last share that is not empty ends the wheel, whatever was rounded.
+    places: NDArray[np.int64] = np.minimum(drawn, int(np.searchsorted(shares, shares[-1]))).astype(np.int64)
+    return places
+
+
+def _weights(order: Sequence[Individual[G]]) -> NDArray[np.float64]:
+    """Give the weights of a ranked deme, (n,), not all of them 0."""
+    # Halved, so that no difference of two finite values is infinite.
+    halves = np.array([np.nan if one.fitness is None else one.fitness / 2 for one in order])
+    if np.isnan(halves).all():
+        return np.ones(len(order))
+    span = float(np.nanmax(halves) - np.nanmin(halves))
+    weights = (halves - np.nanmin(halves)) / span if span > 0 else np.ones(len(order))
+    weights[np.isnan(halves)] = 0.0
+    rising: NDArray[np.float64] = np.maximum.accumulate(weights[::-1])
+    return rising[::-1]
+
+
+def uniform(size: int, rounds: int, rng: np.random.Generator) -> NDArray[np.int64]:
+    """Draw among so many members, each as likely as any other, with replacement; (rounds,) int64."""
+    places: NDArray[np.int64] = rng.integers(0, size, size=rounds)
+    return places

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from collections.abc import Mapping
+from typing import Annotated, Final, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -10,6 +11,9 @@ from genome.errors import InputError
 from genome.settings import Settings
 
 Probability = Annotated[float, Field(ge=0, le=1)]
+
+OF_ALGORITHM: Final[Mapping[str, str]] = {"offspring": "plus", "parents": "parents", "longest_life": "parents"}
+"""Keys that one algorithm alone takes."""
 
 
 class Algorithm(Settings):
@@ -19,7 +23,9 @@ class Algorithm(Settings):
     ----------
     name
         ``generational``: all but the elite are replaced by offspring. ``plus``: the best of parents and offspring
-        together live on, of equals the younger (mu + lambda).
+        together live on, of equals the younger (mu + lambda). ``parents``: the best of the old parents and of the
+        offspring are the parents of the next generation, and nobody else breeds (Senatore 2009, 'Selection: an elitist
+        approach').
     elite
         Of ``generational`` alone: how many of the best live on as they are.
     elitism
@@ -27,8 +33,14 @@ class Algorithm(Settings):
         one of the elite takes the place of the worst of them only where it is better than all of them.
     offspring
         Of ``plus`` alone: how many are bred in a generation; as many as the population without.
+    parents
+        Of ``parents`` alone: how many breed; a quarter of the population without, at least one.
+    longest_life
+        Of ``parents`` alone: after so many generations as a parent one is dropped, however good; never without.
     selection
-        ``tournament``: a parent is the best of ``tournament`` members drawn with replacement.
+        Among the deme, with ``parents`` among the parents. ``tournament``: the best of ``tournament`` members drawn
+        with replacement. ``roulette``: each as likely as its fitness above the worst valid one's is large.
+        ``uniform``: each as likely as any other.
     tournament
         Entrants of a tournament; 1 selects at random.
     crossover
@@ -37,18 +49,25 @@ class Algorithm(Settings):
         Probability that an offspring is mutated; one that was not crossed is mutated in any case.
     """
 
-    name: Literal["generational", "plus"] = "generational"
+    name: Literal["generational", "plus", "parents"] = "generational"
     elite: Annotated[int, Field(ge=0)] = 1
     elitism: Literal["keep", "restore"] = "keep"
     offspring: Annotated[int, Field(ge=1)] | None = None
-    selection: Literal["tournament"] = "tournament"
+    parents: Annotated[int, Field(ge=1)] | None = None
+    longest_life: Annotated[int, Field(ge=1)] | None = None
+    selection: Literal["tournament", "roulette", "uniform"] = "tournament"
     tournament: Annotated[int, Field(ge=1, le=1_000_000)] = 3
     crossover: Probability = 0.8
     mutation: Probability = 0.1
 
     @model_validator(mode="after")
-    def _offspring_are_of_plus(self) -> Self:
-        if self.name != "plus" and self.offspring is not None:
-            expected = f"no offspring with the algorithm '{self.name}'"
-            raise InputError("", expected, f"{self.offspring}", "did you mean name: plus?")
+    def _keys_are_of_their_algorithm(self) -> Self:
+        for key, name in OF_ALGORITHM.items():
+            if self.name != name and getattr(self, key) is not None:
+                expected = f"no {key} with the algorithm '{self.name}'"
+                raise InputError("", expected, f"{getattr(self, key)}", f"did you mean name: {name}?")
         return self
+
+    def breeders(self, population: int) -> int:
+        """Give how many parents the algorithm ``parents`` keeps."""
+        return min(population, self.parents or max(1, population // 4))

@@ -1,4 +1,4 @@
-"""What steering has changed on an island for good: its goals, its rates, and members that it favours or keeps."""
+"""What steering has changed on an island for good: goals, rates, strengths, and members that it favours or keeps."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from genome.errors import InputError
 from genome.settings import describe
 from islands.settings import Algorithm
 from islands.spec import IslandSpec
+from islands.strengths import loaded
 
 Json = Mapping[str, Any]
 
@@ -29,12 +30,20 @@ class Steered:
         Ids of members that rank before all others, in this order.
     locked
         Ids of members that nothing replaces or moves away, ascending.
+    strengths
+        The strengths of joints that were changed, in alphabetical order.
     """
 
     goals: tuple[tuple[str, Goal], ...] = ()
     rates: tuple[tuple[str, float], ...] = ()
     promoted: tuple[int, ...] = ()
     locked: tuple[int, ...] = ()
+    strengths: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def measure(self) -> tuple[object, ...]:
+        """All of it that changes how members score; equal where they score alike."""
+        return self.goals, self.strengths
 
     def with_goals(self, changed: Mapping[str, Goal]) -> Steered:
         """Give the same with some goals in place of those of before."""
@@ -43,6 +52,10 @@ class Steered:
     def with_rates(self, changed: Mapping[str, float]) -> Steered:
         """Give the same with some rates in place of those of before."""
         return replace(self, rates=tuple(sorted({**dict(self.rates), **changed}.items(), key=_name)))
+
+    def with_strengths(self, changed: Mapping[str, float]) -> Steered:
+        """Give the same with some strengths in place of those of before."""
+        return replace(self, strengths=tuple(sorted({**dict(self.strengths), **changed}.items(), key=_name)))
 
     def without(self, identity: int) -> Steered:
         """Give the same once a member is gone."""
@@ -59,6 +72,8 @@ class Steered:
 
     def spec(self, spec: IslandSpec) -> IslandSpec:
         """Give an island's settings as they are changed."""
+        if self.strengths:
+            spec = replace(spec, growth=loaded(spec.growth, dict(self.strengths)))
         if not self.goals and not self.rates:
             return spec
         goals = {name: goal.model_dump(mode="json") for name, goal in self.goals}
@@ -72,6 +87,7 @@ class Steered:
             "rates": dict(self.rates),
             "promoted": list(self.promoted),
             "locked": list(self.locked),
+            "strengths": dict(self.strengths),
         }
         return {key: value for key, value in told.items() if value}
 
@@ -90,6 +106,7 @@ class Steered:
                 tuple(told.get("rates", {}).items()),
                 tuple(told.get("promoted", ())),
                 tuple(told.get("locked", ())),
+                tuple(told.get("strengths", {}).items()),
             )
         except (AttributeError, TypeError, ValueError):
             read = None

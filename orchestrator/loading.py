@@ -153,6 +153,10 @@ def _with_kind(name: str, island: IslandSettings, source: str) -> IslandSettings
     if kept and island.algorithm.elite >= island.population:
         where = f"{source}: islands.{name}.algorithm.elite"
         raise InputError(where, f"less than the population of {island.population}", str(island.algorithm.elite))
+    parents = island.algorithm.parents
+    if parents is not None and parents > island.population:
+        where = f"{source}: islands.{name}.algorithm.parents"
+        raise InputError(where, f"at most the population of {island.population}", str(parents))
     species = island.species
     if species is None:
         meaning = json.dumps(genome, sort_keys=True, allow_nan=False)

@@ -5,7 +5,14 @@ vertex on its way, soft ones are only counted. The file format is in docs/format
 """
 
 from growth.environment.environment import Environment
-from growth.environment.load import environment_from, load_environment
+from growth.environment.load import environment_among, environment_from, load_environment
 from growth.environment.settings import EnvironmentSettings, environment_settings
 
-__all__ = ["Environment", "EnvironmentSettings", "environment_from", "environment_settings", "load_environment"]
+__all__ = [
+    "Environment",
+    "EnvironmentSettings",
+    "environment_among",
+    "environment_from",
+    "environment_settings",
+    "load_environment",
+]

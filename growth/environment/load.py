@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,8 @@ import numpy as np
 
 from genome.settings import Path as KeyPath
 from genome.yaml import load_yaml
-from growth.environment.boundaries.mesh import MeshSettings, mesh
-from growth.environment.boundaries.protocol import Boundary
+from growth.environment.boundaries.mesh import MeshSettings, PlacedSettings, contents_of, mesh, placed_mesh
+from growth.environment.boundaries.protocol import Boundary, Floats, Triangles
 from growth.environment.boundaries.registry import SHAPES
 from growth.environment.environment import Environment
 from growth.environment.settings import EnvironmentSettings, LineOf, environment_settings
@@ -73,6 +74,39 @@ def environment_from(
         (soft if item.soft else hard).append(boundary)
     gravity = np.array(settings.gravity, dtype=np.float64)
     return Environment(dumped, _digest(meaning), tuple(files), gravity, _sources(settings), tuple(hard), tuple(soft))
+
+
+def environment_among(
+    environment: Environment, meshes: Iterable[tuple[str, Floats, Triangles]], placement: PlacedSettings
+) -> Environment:
+    """Give an environment with further boundaries.
+
+    Parameters
+    ----------
+    environment
+        As it was.
+    meshes
+        A name, vertices (v, 3) float64 and triangles (t, 3) int32 of each: closed bodies, fronts outward.
+    placement
+        How each of them stands there.
+
+    Returns
+    -------
+    Environment
+        Its ``settings`` list the meshes by name and contents; there is no file to read them from again.
+    """
+    settings: dict[str, Any] = json.loads(json.dumps(dict(environment.settings)))
+    placed: dict[str, Any] = json.loads(json.dumps(placement.model_dump(mode="json")))
+    hard: list[Boundary] = [one for one in environment.boundaries if not one.soft]
+    soft: list[Boundary] = [one for one in environment.boundaries if one.soft]
+    meaning: list[Any] = [environment.digest]
+    for name, vertices, triangles in meshes:
+        boundary, contents = placed_mesh(vertices, triangles, placement), contents_of(vertices, triangles)
+        (soft if placement.soft else hard).append(boundary)
+        settings["boundaries"].append({**placed, "mesh": name, "contents": contents})
+        meaning.append({**placed, "contents": contents})
+    digest = _digest({"among": meaning})
+    return replace(environment, settings=settings, digest=digest, _hard=tuple(hard), _soft=tuple(soft))
 
 
 def _sources(settings: EnvironmentSettings) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:

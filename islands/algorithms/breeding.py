@@ -1,13 +1,16 @@
-"""Making offspring of a ranked deme: tournaments, crossover pair by pair, mutation."""
+"""Making offspring of a ranked deme: selection, crossover pair by pair, mutation."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Generic, NamedTuple, TypeVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from islands.individual import Individual, Origin
 from islands.kinds.protocol import Biology
-from islands.selection import tournaments
+from islands.selection import roulettes, tournaments, uniform
 from islands.settings import Algorithm
 from islands.streams import EpochStreams, Purpose
 
@@ -32,25 +35,24 @@ def breed(
     biology
         Crosses and mutates.
     order
-        The deme, best first; at least one member.
+        Those who may be parents, best first; at least one.
     count
         How many offspring.
     settings
-        Entrants of a tournament, rates of crossover and mutation.
+        How parents are selected, rates of crossover and mutation.
     streams
-        SELECTION draws the tournaments, where there is anything to draw; VARIATION all the rest.
+        SELECTION draws the parents, where there is anything to draw; VARIATION all the rest.
     """
     pairs = (count + 1) // 2
     # With one member to choose from nothing would be drawn.
     places = [0] * (2 * pairs)
     if len(order) > 1:
-        chance = streams(Purpose.SELECTION)
-        places = tournaments(len(order), settings.tournament, 2 * pairs, chance).tolist()
+        places = _selected(order, 2 * pairs, settings, streams).tolist()
     change = streams(Purpose.VARIATION)
     draws = change.random(3 * pairs).tolist()
     # The generational algorithm mutates the offspring that it drops, too: what is drawn after it in recorded runs
     # depends on that.
-    made = count if settings.name == "plus" else 2 * pairs
+    made = 2 * pairs if settings.name == "generational" else count
     births: list[Birth[G]] = []
     for pair in range(pairs):
         first, second = order[places[2 * pair]], order[places[2 * pair + 1]]
@@ -66,6 +68,18 @@ def breed(
             genotype = biology.mutate(genotypes[side], change) if mutated else genotypes[side]
             births.append(Birth(genotype, parents[side], _origin(crossed=crossed, mutated=mutated)))
     return births[:count]
+
+
+def _selected(
+    order: Sequence[Individual[G]], rounds: int, settings: Algorithm, streams: EpochStreams
+) -> NDArray[np.int64]:
+    """Select parents; give their places."""
+    chance = streams(Purpose.SELECTION)
+    if settings.selection == "roulette":
+        return roulettes(order, rounds, chance)
+    if settings.selection == "uniform":
+        return uniform(len(order), rounds, chance)
+    return tournaments(len(order), settings.tournament, rounds, chance)
 
 
 def _origin(*, crossed: bool, mutated: bool) -> Origin:

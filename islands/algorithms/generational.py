@@ -26,6 +26,11 @@ class Generational:
         """Give the population, less the elite that is kept."""
         return population if settings.elitism == "restore" else population - min(settings.elite, members)
 
+    def breeders(self, settings: Algorithm, population: int, order: Sequence[Individual[G]]) -> Sequence[Individual[G]]:
+        """Give all."""
+        del settings, population
+        return order
+
     def survivors(
         self,
         settings: Algorithm,

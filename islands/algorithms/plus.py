@@ -26,6 +26,11 @@ class Plus:
         """Give ``offspring``, the population without; never fewer than a deme lacks."""
         return max(settings.offspring or population, population - members)
 
+    def breeders(self, settings: Algorithm, population: int, order: Sequence[Individual[G]]) -> Sequence[Individual[G]]:
+        """Give all."""
+        del settings, population
+        return order
+
     def survivors(
         self,
         settings: Algorithm,

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final, Protocol, TypeVar
 
 from islands.algorithms.generational import Generational
+from islands.algorithms.parents import Parents
 from islands.algorithms.plus import Plus
 from islands.individual import Individual
 from islands.settings import Algorithm
@@ -18,6 +19,10 @@ class Scheme(Protocol):
 
     def offspring(self, settings: Algorithm, population: int, members: int) -> int:
         """Give how many are bred by a deme of so many members that is to have ``population``."""
+        ...
+
+    def breeders(self, settings: Algorithm, population: int, order: Sequence[Individual[G]]) -> Sequence[Individual[G]]:
+        """Give those of a ranked deme who may be parents, best first; at least one of a deme of any."""
         ...
 
     def survivors(
@@ -44,4 +49,4 @@ class Scheme(Protocol):
         ...
 
 
-SCHEMES: Final[Mapping[str, Scheme]] = {"generational": Generational(), "plus": Plus()}
+SCHEMES: Final[Mapping[str, Scheme]] = {"generational": Generational(), "plus": Plus(), "parents": Parents()}

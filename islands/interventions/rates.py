@@ -10,7 +10,7 @@ from genome.settings import near, validated
 from islands.interventions.intervention import Arguments, Subject
 from islands.settings import Algorithm
 
-RATES: Final = ("crossover", "elite", "mutation", "offspring", "tournament")
+RATES: Final = ("crossover", "elite", "longest_life", "mutation", "offspring", "parents", "tournament")
 """Settings that may change while an island evolves; which algorithm it is stays."""
 
 
@@ -37,10 +37,12 @@ def changed(algorithm: Algorithm, population: int, values: Mapping[str, float], 
         if name not in RATES:
             raise InputError(where, "a rate of the algorithm", f"'{name}'", near(name, list(RATES)))
     if "elite" in values and algorithm.name != "generational":
-        raise InputError(f"{where} elite", "no elite with the algorithm 'plus'", str(values["elite"]))
+        raise InputError(f"{where} elite", f"no elite with the algorithm '{algorithm.name}'", str(values["elite"]))
     made = validated(Algorithm, {**algorithm.model_dump(), **values}, where)
     if "elite" in values and made.elitism == "keep" and made.elite >= population:
         raise InputError(f"{where} elite", f"less than the population of {population}", str(made.elite))
+    if made.parents is not None and made.parents > population:
+        raise InputError(f"{where} parents", f"at most the population of {population}", str(made.parents))
     return {name: getattr(made, name) for name in values}
 
 

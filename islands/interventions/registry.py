@@ -14,6 +14,7 @@ from islands.interventions.lock import lock, unlock
 from islands.interventions.promote import promote
 from islands.interventions.rates import rate
 from islands.interventions.remove import remove
+from islands.interventions.strengths import STRENGTH, strength
 from islands.registrar import Registrar
 
 G = TypeVar("G")
@@ -24,6 +25,7 @@ EFFECTS: Final[Mapping[str, Effect]] = {
     "weight": weight,
     "target": target,
     "rate": rate,
+    STRENGTH: strength,
     "promote": promote,
     "lock": lock,
     "unlock": unlock,

@@ -10,11 +10,13 @@ from islands.kinds.protocol import Kind
 
 KINDS: Final = {
     "bits": "islands.kinds.bits:BitsKind",
+    "block_pair": "islands.kinds.block_pair:BlockPairKind",
+    "blocks": "islands.kinds.blocks:BlocksKind",
     "surface": "islands.kinds.surface:SurfaceKind",
 }
 """Built kinds and where they stand; imported when first used."""
 
-LATER: Final = ("blocks", "block_pair", "enclosure", "space", "room", "zone", "house", "timed")
+LATER: Final = ("enclosure", "space", "room", "zone", "house", "timed")
 """Kinds that the experiment format knows and that are not built yet."""
 
 GROUP: Final = "atoll.kinds"

@@ -21,13 +21,16 @@ from genome.genr8 import Genr8Genome, Mapped
 from genome.integers import Genes, decode, encode, random_genes
 from genome.settings import Settings, describe
 from genome.variation import crossover, mutate
-from growth.environment import Environment, environment_from, load_environment
+from growth.environment import Environment, environment_among, environment_from, load_environment
+from growth.environment.boundaries.mesh import PlacedSettings
 from growth.hemls import SurfaceGrowth, grow, parse_system
 from growth.protocol import Clock, Failure
 from growth.surface import Surface
 from islands.diversity import hamming_diversity
 from islands.individual import Evaluation
+from islands.kinds.meshes import MESH, read_mesh_text
 from islands.kinds.protocol import Facts, Keep
+from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
 MESHES: Final = ("glb", "obj", "ply", "stl")
@@ -45,10 +48,16 @@ def _file_or_keys(value: object) -> object:
 class SurfaceIslandGrowth(SurfaceGrowth):
     """Settings of growth on an island: those of the engine, and where the surfaces grow.
 
-    ``environment`` is a file's name, relative to the experiment, or the environment itself; empty space without.
+    Attributes
+    ----------
+    environment
+        A file's name, relative to the experiment, or the environment itself; empty space without.
+    surroundings
+        How each form that channels of surroundings bring stands in it.
     """
 
     environment: Annotated[str | dict[str, JsonValue] | None, BeforeValidator(_file_or_keys)] = None
+    surroundings: PlacedSettings = PlacedSettings()
 
 
 @final
@@ -61,14 +70,17 @@ class SurfaceBiology:
         The island's settings.
     clock
         For the ``*_ms`` columns and the safety net behind the growth's budget.
+    environment
+        Where they grow; without it what the settings say.
     """
 
-    def __init__(self, spec: IslandSpec, clock: Clock) -> None:
+    def __init__(self, spec: IslandSpec, clock: Clock, environment: Environment | None = None) -> None:
+        self._spec: Final = spec
         self._genome: Final = Genr8Genome.model_validate(dict(spec.genome))
         self._growth: Final = SurfaceIslandGrowth.model_validate(dict(spec.growth))
         self._clock: Final = clock
         self._mapper: Final = _located(spec, "genome", "grammar", lambda: self._genome.mapper(Path(spec.base)))
-        self._environment: Final = environment_of(spec)
+        self._environment: Final = environment_of(spec) if environment is None else environment
         self._goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in spec.fitness.items()}
         names = dict.fromkeys([*CRITERIA, *self._goals])
         self._criteria: Final = {name: resolve(name, spec.where("fitness", name)) for name in names}
@@ -101,6 +113,12 @@ class SurfaceBiology:
     def diversity(self, genotypes: Sequence[Genes]) -> float | None:
         """Give the mean pairwise Hamming distance."""
         return hamming_diversity(genotypes)
+
+    def surrounded(self, forms: tuple[Migrant, ...]) -> SurfaceBiology:
+        """Give the biology among these forms, closed meshes that growth may not pass (or as the settings say)."""
+        meshes = [(f"{form.id}", *read_mesh_text(form.text, f"form {form.id}")) for form in forms]
+        environment = environment_among(environment_of(self._spec), meshes, self._growth.surroundings)
+        return SurfaceBiology(self._spec, self._clock, environment)
 
     def evaluate(self, genotype: Genes) -> Evaluation:
         """Map, grow and score a genome by all of Genr8's criteria, goals or not."""
@@ -167,7 +185,7 @@ class SurfaceBiology:
 
     def _scoring_key(self) -> str:
         """Hash all that a fitness depends on besides the genotype."""
-        growth = self._growth.model_dump(mode="json", exclude={"environment"})
+        growth = self._growth.model_dump(mode="json", exclude={"environment", "surroundings"})
         goals = {name: goal.model_dump(mode="json") for name, goal in sorted(self._goals.items())}
         # The grammar maps the genotype, so it is a part of how an island scores, though one species has one.
         mapping = self._genome.model_dump(mode="json", exclude={"length", "crossover", "gene_mutation"})
@@ -204,6 +222,7 @@ class SurfaceKind:
     genome: ClassVar[type[Settings]] = Genr8Genome
     growth: ClassVar[type[Settings]] = SurfaceIslandGrowth
     variation: ClassVar[frozenset[str]] = frozenset({"crossover", "gene_mutation"})
+    takes: ClassVar[Mapping[ChannelKind, tuple[str, ...]]] = {"surroundings": (MESH,)}
 
     def build(self, spec: IslandSpec, clock: Clock) -> SurfaceBiology:
         """Load the grammar, the environment and the criteria."""

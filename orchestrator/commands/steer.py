@@ -25,6 +25,7 @@ HELP = """Intervene in the running RUN: it takes effect at the start of an epoch
 \b
 pause, resume, stop, checkpoint
 weight CRITERION=VALUE...    target CRITERION=VALUE...    rate NAME=VALUE...
+strength NAME=VALUE...
 promote ID, promote none     lock ID, unlock ID           remove ID
 insert GENOTYPE
 add-island NAME              remove-island NAME

@@ -12,11 +12,13 @@ from genome.errors import InputError
 from genome.mishaps import let_pass, told
 from genome.settings import describe, near
 from islands.individual import home_of
-from islands.interventions import goals, rates
+from islands.interventions import goals, rates, strengths
+from islands.interventions.strengths import STRENGTH
 from islands.kinds.protocol import Biology
 from islands.kinds.registry import resolve_kind
 from islands.scoring import scored
 from islands.spec import IslandSpec
+from islands.strengths import has_strengths, loaded
 from orchestrator.overrides import apply_overrides
 from orchestrator.steering.command import ISLANDS, RUN, Request
 from orchestrator.steering.restructuring import living_names, restructured
@@ -76,6 +78,9 @@ def _for_islands(request: Request, structure: Structure, epoch: int, *, trial: b
         specs = [spec for spec in living if set(arguments["values"]) <= set(spec.fitness)]
         if not specs:
             raise _no_such_goals(verb, arguments["values"], living)
+    elif verb == STRENGTH:
+        # Islands of other kinds are not meant; where there is no island of bodies the check of any says so.
+        specs = [spec for spec in living if has_strengths(spec.growth)] or living
     if "id" in arguments:
         _refuse_stranger(verb, arguments["id"], structure)
     groups: dict[str, IslandSpec] = {}
@@ -119,6 +124,12 @@ def _rates(spec: IslandSpec, verb: str, arguments: Arguments, trial: bool) -> No
     rates.changed(spec.algorithm, spec.population, arguments["values"], f"steer {verb} on {spec.group}")
 
 
+def _strengths(spec: IslandSpec, verb: str, arguments: Arguments, trial: bool) -> None:
+    del trial
+    changed = strengths.changed(spec.growth, arguments["values"], f"steer {verb} on {spec.group}")
+    _built(replace(spec, growth=loaded(spec.growth, changed)))
+
+
 def _insert(spec: IslandSpec, verb: str, arguments: Arguments, trial: bool) -> None:
     if not trial:
         return
@@ -143,6 +154,7 @@ _CHECKS: Final[Mapping[str, Callable[[IslandSpec, str, Arguments, bool], None]]]
     "weight": _goals,
     "target": _goals,
     "rate": _rates,
+    STRENGTH: _strengths,
     "insert": _insert,
 }
 

@@ -68,8 +68,8 @@ def _nothing(verb: str, words: Words) -> dict[str, Any]:
 
 
 def _values(verb: str, words: Words) -> dict[str, Any]:
-    name = "RATE" if verb == "rate" else "CRITERION"
-    example = {"weight": "size=3", "target": "size=7", "rate": "mutation=0.4"}[verb]
+    name = {"rate": "RATE", "strength": "STRENGTH"}.get(verb, "CRITERION")
+    example = {"weight": "size=3", "target": "size=7", "rate": "mutation=0.4", "strength": "axial=12"}[verb]
     found: dict[str, float] = {}
     for word in words.words:
         key, equals, value = word.partition("=")
@@ -129,7 +129,7 @@ def _one(verb: str, words: Words, what: str) -> str:
 
 _READERS: Final[Mapping[str, Callable[[str, Words], dict[str, Any]]]] = {
     **dict.fromkeys(RUN, _nothing),
-    **dict.fromkeys(("weight", "target", "rate"), _values),
+    **dict.fromkeys(("weight", "target", "rate", "strength"), _values),
     **dict.fromkeys(("promote", "remove", "lock", "unlock"), _one_id),
     "insert": _genotype,
     "add-island": _new_island,

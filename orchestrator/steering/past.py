@@ -9,6 +9,7 @@ from genome.errors import InputError
 from islands.interventions.goals import TARGET, WEIGHT
 from islands.interventions.intervention import Subject
 from islands.interventions.registry import EFFECTS
+from islands.interventions.strengths import STRENGTH
 from islands.spec import IslandSpec
 from islands.steered import UNSTEERED, Steered
 from orchestrator.steering.command import Command
@@ -16,7 +17,7 @@ from orchestrator.steering.command import Command
 
 @final
 class Past:
-    """Gives islands' settings with the goals that they had in an epoch.
+    """Gives islands' settings with the goals and strengths that they had in an epoch.
 
     Parameters
     ----------
@@ -27,7 +28,9 @@ class Past:
     """
 
     def __init__(self, commands: Iterable[Command], islands: Iterable[IslandSpec]) -> None:
-        self._commands: Final = tuple(one for one in commands if one.is_accepted and one.verb in (WEIGHT, TARGET))
+        self._commands: Final = tuple(
+            one for one in commands if one.is_accepted and one.verb in (WEIGHT, TARGET, STRENGTH)
+        )
         self._specs: Final[Mapping[str, IslandSpec]] = {spec.name: spec for spec in islands}
         self._known: Final[dict[tuple[str, int], Steered]] = {}
 

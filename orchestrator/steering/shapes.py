@@ -78,7 +78,7 @@ def _texts(given: object, least: int = 1) -> bool:
 
 
 _SHAPES: Final[Mapping[str, Callable[[Mapping[str, Any]], bool]]] = {
-    **dict.fromkeys(("weight", "target", "rate"), _values),
+    **dict.fromkeys(("weight", "target", "rate", "strength"), _values),
     **dict.fromkeys(("remove", "lock", "unlock"), _id),
     "promote": _promoted,
     "insert": _genotype,

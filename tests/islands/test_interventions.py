@@ -386,7 +386,7 @@ def test_the_same_interventions_give_the_same_result_in_any_process(epochs) -> N
 
 
 def test_every_kind_is_tried_here() -> None:
-    assert set(KINDS) == {"weight", "target", "rate", "promote", "lock", "unlock", "remove", "insert"}
+    assert set(KINDS) == {"weight", "target", "rate", "strength", "promote", "lock", "unlock", "remove", "insert"}
 
 
 def test_what_is_no_intervention_is_refused() -> None:

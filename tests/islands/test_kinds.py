@@ -13,6 +13,8 @@ from plugged import install
 from evaluators.registry import CRITERIA
 from genome.errors import InputError
 from islands.individual import Evaluation
+from islands.kinds.block_pair import BlockPairKind
+from islands.kinds.blocks import BlocksKind
 from islands.kinds.protocol import Biology, Kind
 from islands.kinds.registry import KINDS, LATER, resolve_kind
 from islands.kinds.surface import SurfaceKind
@@ -23,7 +25,13 @@ SURFACE = {
     "growth": {"steps": 3, "environment": None},
     "fitness": {"size": {"goal": "target", "value": 6.0}, "undulation": {"goal": "maximise"}},
 }
-EVERY = [(BitsKind, {}), (SurfaceKind, SURFACE)]
+LOADED = {"growth": {"max_blocks": 80, "load": {"axial_strength": 90}}, "fitness": {"height": {"goal": "maximise"}}}
+EVERY = [
+    (BitsKind, {}),
+    (SurfaceKind, SURFACE),
+    (BlocksKind, {"kind": "blocks", "genome": {}, **LOADED}),
+    (BlockPairKind, {"kind": "block_pair", "genome": {}, **LOADED}),
+]
 
 
 def resolved(kind, changes):
@@ -67,7 +75,7 @@ def test_genotypes_are_immutable_values_that_survive_their_encoding(biology) -> 
         text = biology.encode(genotype)
         assert biology.decode(text) == genotype
         assert biology.encode(biology.decode(text)) == text
-        assert isinstance(json.loads(text), list)
+        assert isinstance(json.loads(text), list | dict)
         hash(genotype)
 
 
@@ -156,7 +164,7 @@ def test_forms_are_written_under_the_stem(biology, tmp_path) -> None:
     valid = [genotype for genotype in some(biology, 20) if biology.evaluate(genotype).fitness is not None]
     files = biology.write_forms(valid[0], tmp_path / "a.b-1", (), {"run": "test"})
     assert files
-    assert all(path.is_file() and path.name.startswith("a.b-1.") for path in files)
+    assert all(path.is_file() and path.name.startswith(("a.b-1.", "a.b-1-part")) for path in files)
 
 
 def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_entry_point(
@@ -170,14 +178,14 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     names = {
         "words": "bits:BitsKind",
         "surface": "bits:BitsKind",
-        "blocks": "bits:BitsKind",
+        "room": "bits:BitsKind",
         "extra": "bits:BitsKind [x]",
     }
     install(tmp_path, monkeypatch, "atoll.kinds", **names)
-    assert {resolve_kind(name, "here").name for name in ("words", "blocks", "extra")} == {"bits"}
+    assert {resolve_kind(name, "here").name for name in ("words", "room", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
-    with pytest.raises(InputError, match="known now: bits, blocks, extra, surface, words"):
-        resolve_kind("room", "here")
+    with pytest.raises(InputError, match="known now: bits, block_pair, blocks, extra, room, surface, words"):
+        resolve_kind("house", "here")
 
 
 @pytest.fixture

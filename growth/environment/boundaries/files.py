@@ -41,12 +41,17 @@ def read_mesh(path: Path, source: str) -> tuple[Floats, Triangles]:
     """
     where = f"{source}: {path}"
     vertices, faces = _loaded(path, where)
+    if path.suffix.lower() in Y_UP:
+        vertices = np.stack([vertices[:, 0], -vertices[:, 2], vertices[:, 1]], axis=1)
+    return closed(vertices, faces, where)
+
+
+def closed(vertices: Floats, faces: NDArray[np.int64], where: str) -> tuple[Floats, Triangles]:
+    """Make one closed body of vertices (v, 3) and triangles (t, 3) that somebody else wrote; as :func:`read_mesh`."""
     if len(faces) == 0:
         raise InputError(where, "a mesh with faces", "an empty one")
     if not np.isfinite(vertices).all():
         raise InputError(where, "finite coordinates", "NaN or infinity", "repair the file")
-    if path.suffix.lower() in Y_UP:
-        vertices = np.stack([vertices[:, 0], -vertices[:, 2], vertices[:, 1]], axis=1)
     vertices, triangles = _merged(vertices, faces)
     opened, clashing = _unmatched(triangles)
     if opened:

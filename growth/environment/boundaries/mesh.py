@@ -30,16 +30,21 @@ RAYS: Final = np.array(
 """Directions in which a point looks for its winding number; none lies along a plane that people draw in."""
 
 
-class MeshSettings(BoundarySettings):
-    """A mesh file, scaled, turned about the fixed x, then y, then z axis (degrees), then moved.
+class PlacedSettings(BoundarySettings):
+    """A mesh, scaled, turned about the fixed x, then y, then z axis (degrees), then moved."""
+
+    at: Vector3 = (0.0, 0.0, 0.0)
+    rotation: Vector3 = (0.0, 0.0, 0.0)
+    scale: Annotated[float, Field(gt=0)] = 1.0
+
+
+class MeshSettings(PlacedSettings):
+    """A mesh file, placed.
 
     ``contents`` is the hash that a run's own copy of its settings holds: where it is given, the file must still match.
     """
 
     mesh: Annotated[str, Field(min_length=1)]
-    at: Vector3 = (0.0, 0.0, 0.0)
-    rotation: Vector3 = (0.0, 0.0, 0.0)
-    scale: Annotated[float, Field(gt=0)] = 1.0
     contents: str | None = None
 
 
@@ -133,12 +138,22 @@ def mesh(settings: MeshSettings, source: str, base: Path) -> tuple[Mesh, str]:
     """
     path = base / settings.mesh
     vertices, triangles = read_mesh(path, source)
-    contents = hashlib.blake2b(vertices.tobytes() + triangles.tobytes(), digest_size=16).hexdigest()
+    contents = contents_of(vertices, triangles)
     if settings.contents not in (None, contents):
         raise InputError(source, f"the mesh {path} as it was ({settings.contents})", contents, "restore the file")
+    return placed_mesh(vertices, triangles, settings), contents
+
+
+def contents_of(vertices: Floats, triangles: Triangles) -> str:
+    """Hash a mesh's geometry."""
+    return hashlib.blake2b(vertices.tobytes() + triangles.tobytes(), digest_size=16).hexdigest()
+
+
+def placed_mesh(vertices: Floats, triangles: Triangles, settings: PlacedSettings) -> Mesh:
+    """Build a mesh boundary from vertices (v, 3) and triangles (t, 3) that are known to be closed, and place it."""
     turn = frame_turned(settings.rotation)
     placed = np.ascontiguousarray((vertices * settings.scale) @ turn + np.array(settings.at))
-    return closed_mesh(placed, triangles, settings), contents
+    return closed_mesh(placed, triangles, settings)
 
 
 def closed_mesh(vertices: Floats, triangles: Triangles, settings: BoundarySettings) -> Mesh:
