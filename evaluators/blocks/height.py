@@ -6,7 +6,7 @@ from evaluators.blocks.structure import Structure
 
 
 def height(structure: Structure) -> float:
-    """Count the levels from the lowest to the highest internal block (Senatore 2009, 'weights and mechanical properties').
+    """Count the levels of the internal blocks, from the lowest to the highest (Senatore 2009, chapter 3).
 
     The thesis divides by the most that could be, the number of symbols of the longest word. What that is, the body does
     not know: give it as the ``scale`` of the goal.

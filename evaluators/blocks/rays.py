@@ -17,6 +17,9 @@ Floats = NDArray[np.float64]
 GOLDEN_4: Final = 1.1673039782614187
 """The positive root of x^5 = x + 1; its powers spread points evenly over four dimensions."""
 
+WIDEST: Final = 5_000
+"""The most cells along an axis that rays are sent over."""
+
 
 def cells_at(points: Floats, lattice: Lattice) -> Ints:
     """Give the cells that points lie in: (n, 3) int64, those with the nearest centres.
@@ -45,6 +48,14 @@ def spread(count: int) -> Floats:
 
 
 def hits(body: Body, starts: Floats, within: Ints, ways: Floats) -> Ints:
-    """Give the place of the first of the body's cells that each ray meets, or -1: (r,) int64."""
+    """Give the place of the first of the body's cells that each ray meets, or -1: (r,) int64.
+
+    Raises
+    ------
+    ValueError
+        For a body so wide that rays would take minutes; one that hangs together is far smaller.
+    """
+    if len(body.cells) and int(np.ptp(body.cells, axis=0).max()) > WIDEST:
+        raise ValueError(f"the body is more than {WIDEST} cells wide")
     sides = np.ascontiguousarray(body.lattice.offsets[body.lattice.contacts == FACE])
     return first_hits(body.cells, sides, starts, within, ways)

@@ -6,7 +6,7 @@ from evaluators.blocks.structure import Structure
 
 
 def rise(structure: Structure) -> float:
-    """Add up the levels of all internal blocks (Senatore 2009, 'weights and mechanical properties').
+    """Add up the levels of all internal blocks (Senatore 2009, chapter 3).
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ def symmetry(structure: Structure) -> float:
         return 1.0
     ways = ((x, y), (y, x), (x - y, x + y), (x + y, x - y))  # along the normal, and along the plane
     both = max(_kept(along, fixed, z) for along, fixed in ways)
-    return both / (2 * x.size - both)
+    return float(both / (2 * x.size - both))
 
 
 def _kept(along: Ints, fixed: Ints, z: Ints) -> int:

@@ -60,9 +60,8 @@ class Equations:
     def opened(self, moved: Floats) -> Floats:
         """Give by how much each joint opens, (j, 6), when the centres move by (count, 6)."""
         whole = np.vstack([moved, np.zeros(6)])[self.ends]  # row -1: clamped
-        return np.einsum("jab,jb->ja", self.arms[:, 1], whole[:, 1]) - np.einsum(
-            "jab,jb->ja", self.arms[:, 0], whole[:, 0]
-        )
+        first, second = (np.einsum("jab,jb->ja", self.arms[:, end], whole[:, end]) for end in (0, 1))
+        return np.asarray(second - first)
 
     def matrix(self) -> csr_array:
         """Give :meth:`sums` as a sparse (6 count, 6 j) matrix."""

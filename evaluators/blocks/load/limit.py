@@ -35,8 +35,8 @@ def limit(body: Body, settings: LoadSettings) -> Load:
     What a joint carries must lie in a ball (its force within ``axial_strength``, its moment within
     ``torsion_strength``), which a linear program cannot say. In its place stands a polyhedron within: at first a cube
     with its corners on the sphere; wherever that counts for the result, the geodesic polyhedron with 162 corners on the
-    sphere and 320 faces, no nearer to the centre than 0.983 of the radius. So the factor is never too large, and at most
-    1.7 percent too small.
+    sphere and 320 faces, no nearer to the centre than 0.982 of the radius. So the factor is never too large, and too
+    small by 1.8 percent at most.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def _faces(fine: Flags) -> tuple[csr_array, Floats]:
     distances = np.einsum("fa,fa->f", normals, ball.vertices[ball.faces[:, 0]])
     joint, which = np.nonzero(fine)
     shape = (joint.size, len(normals), 3)
-    rows = np.broadcast_to(np.arange(joint.size * len(normals)).reshape(joint.size, -1, 1), shape)
+    rows = np.broadcast_to(np.arange(joint.size * len(normals)).reshape(joint.size, len(normals), 1), shape)
     columns = np.broadcast_to((6 * joint + 3 * which)[:, np.newaxis, np.newaxis] + np.arange(3), shape)
     values = np.broadcast_to(normals, shape)
     flat = (values.ravel(), (rows.ravel(), columns.ravel()))

@@ -189,12 +189,12 @@ class TestEquilibrium:
 
 class TestGalasyn:
     def test_the_one_block_problem(self):
-        """Worked out by hand from Figures 18 to 20, weight 3: one block on three, joints at its two corners and between.
+        """By hand from Figures 18 to 20, weight 3: one block on three, joints at its two corners and between them.
 
-        Each joint's share is (0, -1). At the left corner, direction (-1, -1) / sqrt 2 from the centre: along (-1/2, -1/2),
-        across (1/2, -1/2). Its moment about the joint, of lever (1/2, 1/2), is 1/2 clockwise; at the right corner, one to
-        the right of the left, a force of 1/2 down meets it. In the middle all is along. So each corner has 1 down and
-        1/2 outwards, the middle 1 down, together 3: here galasyn is in balance.
+        Each joint's share is (0, -1). At the left corner, direction (-1, -1) / sqrt 2 from the centre, (-1/2, -1/2) is
+        along it and (1/2, -1/2) across. The latter's moment about the joint, of lever (1/2, 1/2), is 1/2 clockwise; at
+        the right corner, one to the right of the left, a force of 1/2 down meets it. In the middle all is along. So
+        each corner has 1 down and 1/2 outwards, the middle 1 down, together 3: here galasyn is in balance.
         """
         one = body([(0, 0, 0)], boundary=[(-1, 0, -1), (0, 0, -1), (1, 0, -1)])
         found = load(one, "galasyn", weight=3, dimensions=2)
