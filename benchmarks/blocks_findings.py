@@ -163,7 +163,7 @@ def figures(task: tuple[str, int]) -> list[tuple[float, float]]:
             "-m",
             "orchestrator.cli",
             "run",
-            str(ROOT / "experiments" / f"{name}.yaml"),
+            str(ROOT / "experiments" / f"{experiment}.yaml"),
             "--json",
         ]
         command += ["--seed", str(seed), "--runs-dir", folder]
