@@ -192,7 +192,9 @@ def examples() -> None:
     bodies = {name: stand(np.array(cells), wall) for name, cells in bars.items()}
     bodies |= {name: stand(np.array(cells), BlockGrowth()) for name, cells in ground.items()}
     for name, body in bodies.items():
-        loads = [analyse(body, LoadSettings.model_validate({"model": model})) for model in ("frame", "rigid", "galasyn")]
+        loads = [
+            analyse(body, LoadSettings.model_validate({"model": model})) for model in ("frame", "rigid", "galasyn")
+        ]
         cells = [f"{largest(load):.2f}, {load.torsional.max():.2f}" for load in loads]
         print(f"| {name} | {' | '.join(cells)} | {loads[2].residual:.2f} |")
 

@@ -132,29 +132,39 @@ def first_hits(cells: Ints, sides: Ints, starts: Floats, within: Ints, ways: Flo
     high = np.array([cells[:, 0].max(), cells[:, 1].max(), cells[:, 2].max()])
     out = np.full(starts.shape[0], -1, dtype=np.int64)
     at = np.empty(3, dtype=np.int64)
+    forward = np.empty(sides.shape[0], dtype=np.int64)
+    speeds = np.empty(sides.shape[0])
     for r in range(starts.shape[0]):
+        count = 0
+        for s in range(sides.shape[0]):
+            speed = ways[r, 0] * sides[s, 0] + ways[r, 1] * sides[s, 1] + ways[r, 2] * sides[s, 2]
+            if speed > 0.0:
+                forward[count] = s
+                speeds[count] = speed
+                count += 1
         at[:] = within[r]
-        ahead = True
-        while ahead:
-            out[r] = place_of(slots, cells, at[0], at[1], at[2])
-            if out[r] >= 0:
+        ahead = count > 0
+        while True:
+            near = True
+            for axis in range(3):
+                near = near and low[axis] <= at[axis] <= high[axis]
+                # left for good: on the way out, beyond all that cells reach (one unit at most from their centres)
+                ahead = ahead and not (at[axis] > high[axis] + 1 and ways[r, axis] >= 0.0)
+                ahead = ahead and not (at[axis] < low[axis] - 1 and ways[r, axis] <= 0.0)
+            if near:
+                out[r] = place_of(slots, cells, at[0], at[1], at[2])
+            if out[r] >= 0 or not ahead:
                 break
             nearest = np.inf
             side = -1
-            for s in range(sides.shape[0]):
-                speed = ways[r, 0] * sides[s, 0] + ways[r, 1] * sides[s, 1] + ways[r, 2] * sides[s, 2]
-                if speed > 0.0:
-                    far = 0.0
-                    for axis in range(3):
-                        far += (at[axis] + 0.5 * sides[s, axis] - starts[r, axis]) * sides[s, axis]
-                    if far / speed < nearest:
-                        nearest = far / speed
-                        side = s
-            ahead = side >= 0
+            for c in range(count):
+                s = forward[c]
+                far = 0.0
+                for axis in range(3):
+                    far += (at[axis] + 0.5 * sides[s, axis] - starts[r, axis]) * sides[s, axis]
+                if far < nearest * speeds[c]:
+                    nearest = far / speeds[c]
+                    side = s
             for axis in range(3):
-                if side >= 0:
-                    at[axis] += sides[side, axis]
-                # left for good: on the way out, beyond all that cells reach (one unit at most from their centres)
-                over = at[axis] > high[axis] + 1 and ways[r, axis] >= 0.0
-                ahead = ahead and not over and not (at[axis] < low[axis] - 1 and ways[r, axis] <= 0.0)
+                at[axis] += sides[side, axis]
     return out

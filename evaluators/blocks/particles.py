@@ -52,8 +52,10 @@ def particles(structure: Structure) -> float:
     entry[rows, axis] = towards[rows, axis] > 0
     entry[rows, (axis + 1) % 3] = within
     entry[rows, (axis + 2) % 3] = drawn[:, 3]
-    away = np.linalg.norm(np.ptp(body.cells, axis=0)) + 2.0  # beyond walls that stand around the body
-    starts = low + entry * size + away * towards
+    starts = low + entry * size
+    ends = np.where(towards > 0, body.cells.max(axis=0) + reach, body.cells.min(axis=0) - reach)
+    away = ((ends - starts) / towards).min(axis=1) + 0.5  # out of the walls that may stand around the body
+    starts += away[:, np.newaxis] * towards
     met = hits(body, starts, cells_at(starts, body.lattice), -towards)
     caught = (met >= 0) & (body.systems[met] != BOUNDARY)
     return float(section[caught].sum() / COUNT)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, Final, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numba import njit
@@ -17,9 +17,6 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 F = TypeVar("F", bound=Callable[..., Any])
-
-IN_LINE: Final = 1e-9
-"""A share of load whose part across is smaller than this of the whole is along the line to the centre of mass."""
 
 
 def kernel(function: F) -> F:
@@ -173,172 +170,14 @@ def parts_above(cells: Ints, depth: Ints, joints: Ints) -> tuple[Ints, Ints, Flo
 
 
 @kernel
-def _turn(
-    a: float, b: float, c: float, d: float, e: float, f: float, mx: float, my: float
-) -> tuple[float, float, float]:
-    """Solve [[a, d, e], [d, b, f], [e, f, c]] turn = (mx, my, 0), a positive definite matrix, by L D L^T."""
-    l21, l31 = d / a, e / a
-    d2 = b - l21 * d
-    l32 = (f - l31 * d) / d2
-    d3 = c - l31 * e - l32 * l32 * d2
-    y2 = my - l21 * mx
-    y3 = -l31 * mx - l32 * y2
-    tz = y3 / d3
-    ty = y2 / d2 - l32 * tz
-    return mx / a - l21 * ty - l31 * tz, ty, tz
-
-
-@kernel
-def _middle(points: Floats, stiffness: Floats, members: Ints) -> tuple[float, float, float, float]:
-    """Give the sum of the joints' stiffnesses, and their centre of stiffness."""
-    k = x = y = z = 0.0
-    for j in members:
-        s = stiffness[j]
-        k += s
-        x += s * points[j, 0]
-        y += s * points[j, 1]
-        z += s * points[j, 2]
-    return k, x / k, y / k, z / k
-
-
-@kernel
-def rigid(
-    points: Floats, stiffness: Floats, turning: float, part: Ints, weights: Floats, centres: Floats
-) -> tuple[Floats, Floats]:
-    """Let each part stand as a rigid body on its elastic joints.
-
-    Taken about the centre of stiffness of the joints, sinking and turning come apart: forces in proportion to stiffness
-    carry the weight, and a 3x3 system gives the turn that meets its moment.
-
-    Parameters
-    ----------
-    points
-        (j, 3) float64, where the joints are.
-    stiffness
-        (j,) float64, force per displacement in any direction.
-    turning
-        Moment per angle in any direction, for a stiffness of 1; above zero.
-    part, weights, centres
-        (j,) int64, (p,) float64 and (p, 3) float64: which part stands on each joint, its weight and centre of mass.
-
-    Returns
-    -------
-    forces, moments : (j, 3) float64
-        What is above each joint does this to what is below; zeros at joints of no part.
-    """
-    forces, moments = np.zeros_like(points), np.zeros_like(points)
-    first, order = by_group(part, weights.size)
-    for p in range(weights.size):
-        members = order[first[p] : first[p + 1]]
-        k, cx, cy, cz = _middle(points, stiffness, members)
-        a = b = c = turning * k
-        d = e = f = 0.0
-        for j in members:
-            s, x, y, z = stiffness[j], points[j, 0] - cx, points[j, 1] - cy, points[j, 2] - cz
-            a += s * (y * y + z * z)
-            b += s * (x * x + z * z)
-            c += s * (x * x + y * y)
-            d -= s * x * y
-            e -= s * x * z
-            f -= s * y * z
-        # the moment of the weight (0, 0, -w) about the centre of stiffness has no vertical part
-        mx, my = -(centres[p, 1] - cy) * weights[p], (centres[p, 0] - cx) * weights[p]
-        tx, ty, tz = _turn(a, b, c, d, e, f, mx, my)
-        for j in members:
-            s, x, y, z = stiffness[j], points[j, 0] - cx, points[j, 1] - cy, points[j, 2] - cz
-            forces[j, 0] = s * (ty * z - tz * y)
-            forces[j, 1] = s * (tz * x - tx * z)
-            forces[j, 2] = s * (tx * y - ty * x) - s / k * weights[p]
-            moments[j, 0] = s * turning * tx
-            moments[j, 1] = s * turning * ty
-            moments[j, 2] = s * turning * tz
-    return forces, moments
-
-
-@kernel
-def _meet(
-    points: Floats, across: Floats, members: Ints, i: int, mx: float, my: float, forces: Floats, moments: Floats
-) -> bool:
-    """Let other joints meet the moment (mx, my, 0) about joint i; tell whether there are any away from it."""
-    others = 0
-    turned = 0.0
-    for j in members:
-        # joints that cross in one point have no lever against each other
-        if points[j, 0] != points[i, 0] or points[j, 1] != points[i, 1] or points[j, 2] != points[i, 2]:
-            others += 1
-            turned += across[j]
-    if others == 0:
-        return False
-    for j in members:
-        x, y, z = points[j, 0] - points[i, 0], points[j, 1] - points[i, 1], points[j, 2] - points[i, 2]
-        square = x * x + y * y + z * z
-        if square > 0.0:
-            # the force (m x r) / r^2 has the moment m less its part along r, which stays as a twist
-            met = (across[j] / turned if turned > 0.0 else 1.0 / others) / square
-            forces[j, 0] += met * my * z
-            forces[j, 1] -= met * mx * z
-            forces[j, 2] += met * (mx * y - my * x)
-            twist = met * (mx * x + my * y)
-            moments[i, 0] += twist * x
-            moments[i, 1] += twist * y
-            moments[i, 2] += twist * z
-    return True
-
-
-@kernel
-def galasyn(points: Floats, stiffness: Floats, part: Ints, weights: Floats, centres: Floats) -> tuple[Floats, Floats]:
-    """Share out each part's weight by Galasyn's vectors (Senatore 2009, 'the one block problem').
-
-    Parameters
-    ----------
-    points, stiffness, part, weights, centres
-        As for :func:`rigid`; a joint's share is in proportion to its stiffness.
-
-    Returns
-    -------
-    forces, moments : (j, 3) float64
-        As of :func:`rigid`, but in balance only where a part has one joint, or by chance.
-    """
-    forces, moments = np.zeros_like(points), np.zeros_like(points)
-    across = np.zeros(part.size)
-    first, order = by_group(part, weights.size)
-    for p in range(weights.size):
-        members = order[first[p] : first[p + 1]]
-        k = 0.0
-        for j in members:
-            k += stiffness[j]
-        for j in members:
-            share = -weights[p] * stiffness[j] / k  # along z
-            x, y, z = points[j, 0] - centres[p, 0], points[j, 1] - centres[p, 1], points[j, 2] - centres[p, 2]
-            square = x * x + y * y + z * z
-            along = share * z / square if square > 0.0 else 0.0
-            across[j] = abs(share) * (math.sqrt((x * x + y * y) / square) if square > 0.0 else 1.0)
-            if across[j] < IN_LINE * weights[p]:
-                across[j] = 0.0
-            forces[j, 0] += along * x
-            forces[j, 1] += along * y
-            forces[j, 2] += along * z
-        for i in members:
-            if across[i] > 0.0:
-                share = -weights[p] * stiffness[i] / k
-                # the moment of the part across about its joint is that of the whole share: (centre - joint) x share
-                mx, my = (centres[p, 1] - points[i, 1]) * share, -(centres[p, 0] - points[i, 0]) * share
-                if not _meet(points, across, members, i, mx, my, forces, moments):  # all of it stays with the joint
-                    forces[i, 0] = forces[i, 1] = 0.0
-                    forces[i, 2] = share
-                    moments[i, 0] += mx
-                    moments[i, 1] += my
-    return forces, moments
-
-
-@kernel
 def imbalance(points: Floats, forces: Floats, moments: Floats, part: Ints, weights: Floats, centres: Floats) -> Floats:
     """Tell how far each part is from equilibrium.
 
     Parameters
     ----------
     points, forces, moments, part, weights, centres
-        As for :func:`rigid`, and what it gives.
+        (j, 3) float64, where the joints are and what they carry; (j,) int64, which part stands on each; (p,) and (p, 3)
+        float64, its weight and centre of mass.
 
     Returns
     -------

@@ -29,6 +29,8 @@ class Cuts:
         The joints.
     part
         (j,) int64, the part that stands on each; -1 within a layer. Each joint is cut once at most.
+    first, order
+        (p + 1,) and (c,) int64: part p stands on the joints ``order[first[p] : first[p + 1]]``.
     weights, centres
         (p,) and (p, 3) float64, of each part.
     stiffness
@@ -37,6 +39,8 @@ class Cuts:
 
     layers: Layers
     part: Ints
+    first: Ints
+    order: Ints
     weights: Floats
     centres: Floats
     stiffness: Floats
@@ -54,4 +58,5 @@ def cuts(body: Body, settings: LoadSettings) -> Cuts:
     part, counts, centres = kernels.parts_above(body.cells, found.depth, found.joints)
     stiffness = np.array(settings.stiffness)[found.kinds]
     weights = counts.astype(np.float64) * settings.weight
-    return Cuts(found, part, weights, centres, stiffness)
+    first, order = kernels.by_group(part, len(weights))
+    return Cuts(found, part, first, order, weights, centres, stiffness)

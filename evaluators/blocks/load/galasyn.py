@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from evaluators.blocks.load import _kernels as kernels
+from evaluators.blocks.load import _galasyn as kernels
 from evaluators.blocks.load.cuts import cuts
 from evaluators.blocks.load.load import Load
 from evaluators.blocks.load.settings import LoadSettings
@@ -30,4 +30,6 @@ def galasyn(body: Body, settings: LoadSettings) -> Load:
         Not in balance in general: ``residual`` says by how much.
     """
     cut = cuts(body, settings)
-    return cut.load(*kernels.galasyn(cut.layers.points, cut.stiffness, cut.part, cut.weights, cut.centres), settings)
+    return cut.load(
+        *kernels.galasyn(cut.layers.points, cut.stiffness, cut.first, cut.order, cut.weights, cut.centres), settings
+    )

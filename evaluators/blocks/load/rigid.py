@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from evaluators.blocks.load import _kernels as kernels
+from evaluators.blocks.load import _rigid as kernels
 from evaluators.blocks.load.cuts import cuts
 from evaluators.blocks.load.layers import TURNING
 from evaluators.blocks.load.load import Load
@@ -31,4 +31,6 @@ def rigid(body: Body, settings: LoadSettings) -> Load:
     """
     cut = cuts(body, settings)
     points = cut.layers.points
-    return cut.load(*kernels.rigid(points, cut.stiffness, TURNING, cut.part, cut.weights, cut.centres), settings)
+    return cut.load(
+        *kernels.rigid(points, cut.stiffness, TURNING, cut.first, cut.order, cut.weights, cut.centres), settings
+    )
