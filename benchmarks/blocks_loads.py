@@ -8,8 +8,11 @@ python -m benchmarks.blocks_loads --record  # tests/evaluators/blocks/pynite.jso
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import subprocess
+import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +22,7 @@ from numpy.typing import NDArray
 from benchmarks.timing import best_of
 from evaluators.blocks.load import Load, LoadSettings, analyse
 from evaluators.blocks.load.frame import AREA, BENDING, POISSON, TORSION, frame
-from genome.lsystem import LSystemGenome, random_system
+from genome.lsystem import LSystemGenome, decode, random_system
 from growth.blocks import BlockGrowth, Body, grow, stand
 from growth.blocks.body import BOUNDARY
 from growth.blocks.lattice import CUBIC
@@ -27,6 +30,8 @@ from growth.blocks.lattice import CUBIC
 ROOT = Path(__file__).parents[1]
 RECORD = ROOT / "tests" / "evaluators" / "blocks" / "pynite.json"
 COUNT, LEAST, MOST = 500, 30, 300
+EXPERIMENTS, SEEDS = ("bridge", "high_rise", "helix", "symmetry"), range(1, 3)
+BRED = f"valid and scores['blocks'] between {LEAST} and {MOST} and generation > 0"
 LIMITS = 100
 LARGEST_LIMIT = 150
 """The linear programs take up to seconds each: as many bodies, of so many blocks at most."""
@@ -61,6 +66,31 @@ def words(rng: np.random.Generator) -> list[Body]:
     while len(out) < COUNT:
         body = grow(random_system(LSystemGenome(), rng), BlockGrowth(max_blocks=MOST))
         if isinstance(body, Body) and len(body.internal) >= LEAST:
+            out.append(body)
+    return out
+
+
+def evolved(rng: np.random.Generator) -> list[Body]:
+    """Give a sample of the bodies of such size that experiments bred, none twice."""
+    from orchestrator.folder import open_run
+    from orchestrator.query import ask
+
+    found: dict[str, tuple[str, ...]] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name, seed in itertools.product(EXPERIMENTS, SEEDS):
+            words = [str(ROOT / "experiments" / f"{name}.yaml"), "--runs-dir", folder, "--name", f"{name}-{seed}"]
+            words += ["--seed", str(seed), "--set", "backend=inline", "--json"]
+            command = [sys.executable, "-m", "orchestrator.cli", "run", *words]
+            subprocess.run(command, check=True, cwd=ROOT, capture_output=True)
+            run = open_run(f"{folder}/{name}-{seed}")
+            rows = ask(run.log, f"select distinct genotype from individuals where {BRED}").rows  # noqa: S608
+            found[f"{name}-{seed}"] = tuple(sorted(row[0] for row in rows))
+    share = -(-COUNT // len(found))
+    out: list[Body] = []
+    for genotypes in found.values():
+        for place in rng.permutation(len(genotypes))[:share].tolist():
+            body = grow(decode(genotypes[place]), BlockGrowth(max_blocks=MOST))
+            assert isinstance(body, Body)
             out.append(body)
     return out
 
@@ -210,9 +240,10 @@ def main() -> int:
         return 0
     examples()
     good = speed(flags.peers)
-    for name, bodies in (("random walks", walks), ("random L-systems", words)):
-        print(f"{name}: {COUNT} bodies of {LEAST} to {MOST} blocks")
-        good = correlations(bodies(np.random.default_rng(7)))["rigid"][0] >= 0.9 and good
+    for name, source in (("evolved", evolved), ("random walks", walks), ("random L-systems", words)):
+        bodies = source(np.random.default_rng(7))
+        print(f"{name}: {len(bodies)} bodies of {LEAST} to {MOST} blocks")
+        good = correlations(bodies)["rigid"][0] >= 0.9 and good
     few = walks(np.random.default_rng(8), LARGEST_LIMIT)[:LIMITS]
     print(f"verdicts on {LIMITS} bodies of {LEAST} to {LARGEST_LIMIT} blocks, beside limit's")
     agreement(few)

@@ -13,11 +13,16 @@ from growth.environment.warm import compile_kernels as compile_environment
 from growth.hemls.warm import compile_kernels as compile_hemls
 
 
-def compile_kernels() -> None:
-    """Compile the kernels of genome mapping, environments, surface growth and block growth."""
+def compile_surfaces() -> None:
+    """Compile the kernels of genome mapping, environments and surface growth."""
     Genr8Genome().mapper(Path()).map(range(200))
     compile_environment()
     compile_hemls()
+
+
+def compile_kernels() -> None:
+    """Compile the kernels of all engines."""
+    compile_surfaces()
     compile_blocks()
 
 

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from typing import Any, Final, final
 
 from growth.protocol import Clock
-from islands.kinds.protocol import Biology
+from islands.kinds.protocol import Biology, Compiled
 from islands.kinds.registry import resolve_kind
 from islands.spec import IslandSpec
 
 REMEMBERED: Final = 4
 """Biologies of one group of islands that are kept, the last ones called for: an environment may be large."""
+
+
+def compile_kernels(islands: Iterable[IslandSpec]) -> None:
+    """Let each kind compile what it needs, so that no individual's growth has to wait for it, against its own clock."""
+    for name, where in {spec.kind: spec.where("kind") for spec in islands}.items():
+        kind = resolve_kind(name, where)
+        if isinstance(kind, Compiled):
+            kind.compile_kernels()
 
 
 @final

@@ -20,7 +20,7 @@ from genome.errors import InputError
 from growth.protocol import Clock
 from islands.agenda import Agenda, Complete, Present, Recorded, Rule, ranks
 from islands.arrivals import arrivals_detail, recorded_arrivals
-from islands.biologies import Biologies
+from islands.biologies import Biologies, compile_kernels
 from islands.checkpoint import Kept, read_parts, write_part
 from islands.forms import best_forms, write_forms
 from islands.inputs import inputs_here
@@ -76,7 +76,10 @@ class Host:
     plan
         What to do.
     clock
-        For the log's clock columns, for how long packets are gathered, and for what a call says of its time.
+        For how long packets are gathered, for what generations took, and for what a call says of its time.
+    work
+        The clock of growth and evaluation, for their columns and for the safety net behind their budgets: time on the
+        processor, so that a process that stood still for a while breeds the same.
     calendar
         For the log's events.
     post
@@ -89,12 +92,13 @@ class Host:
         self,
         plan: HostPlan,
         clock: Clock = time.perf_counter,
+        work: Clock = time.thread_time,
         calendar: Callable[[], datetime] = lambda: datetime.now(UTC),
         post: Post = _nowhere,
         porch: Porch | None = None,
     ) -> None:
         self._plan = plan
-        self._clock = clock
+        self._clock, self._work = clock, work
         self._post = post
         self._stop, self._alone = threading.Event(), threading.Event()
         self._porch: Porch = porch or Bell()
@@ -162,7 +166,8 @@ class Host:
     def _made(self, plan: HostPlan) -> dict[int, Island[Any]]:
         # Islands of one group differ in nothing that their biology sees, until they are steered, so they share it: ten
         # thousand islands need no ten thousand environments.
-        build = Biologies(self._clock)
+        compile_kernels(plan.islands)
+        build = Biologies(self._work)
         strangers = _strangers(plan)
         return {
             spec.number: Island(

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, Final, final
+from typing import Any, Final, NamedTuple, final
 
 from islands.log import Event as LogEvent
 from islands.log import events_table, write
@@ -133,7 +133,7 @@ class Drive:
         self.clock, self.lease, self.replay, self.before = clock, lease, replay, before
         self.stood: float | None = None
         self.latest: tuple[IslandSummary, ...] = ()
-        self.evaluations = 0
+        self.evaluations, self.past = 0, LogPast()
         self.stepped_s = 0.0
         self.round, self.looked = 0, 0.0
         self.is_begun = self.is_paused = False
@@ -170,7 +170,8 @@ class Drive:
             events.extend(self._done(instruction))
         if not self.is_fresh:
             # What takes its time, while the hosts start.
-            self.evaluations = evaluations_until(self.folder, self.before)
+            self.past = past_of(self.folder, self.before)
+            self.evaluations = self.past.evaluations
             self._tell_of_start()
         told = False
         while True:
@@ -269,7 +270,8 @@ class Drive:
         finally:
             # Not before: a lost host that was only slow would write to what was cut, until it is ended.
             roll_back(store, found, keep_run_events=True)
-        self.evaluations = evaluations_until(self.folder, found)
+        self.past = past_of(self.folder, found)
+        self.evaluations = self.past.evaluations
         self._begin()
         detail = {"hosts": self.hosts, "epoch": self.epoch, "reason": reason, "lost": list(lost)}
         detail |= {"damaged": list(doubts)} if doubts else {}
@@ -338,14 +340,15 @@ class Drive:
 
     def facts(self) -> dict[str, Any]:
         """Give how far the run has come: keys of the manifest and of the outcome."""
+        stepped = self.stepped_s or (0.0 if self.stood is None else time.perf_counter() - self.stood)
         return {
             "wall_s": round(time.perf_counter() - self.clock, 3),
             "startup_s": round((self.stood or time.perf_counter()) - self.clock, 3),
-            "generations": max((row.generation for row in self.latest), default=0),
+            "generations": max((row.generation for row in self.latest), default=self.past.generations),
             "evaluations": self.evaluations,
-            "best": best_row(self.latest),
-            "stepped_s": round(self.stepped_s, 4),
-            "busy": round(self.backend.ledger.busy_s / max(self.stepped_s * self.hosts, 1e-9), 4),
+            "best": best_row(self.latest) if self.latest else self.past.best,
+            "stepped_s": round(stepped, 4),
+            "busy": round(self.backend.ledger.busy_s / (stepped * self.hosts), 4) if stepped > 0 else 0.0,
         }
 
     def _report(self, epoch: int) -> None:
@@ -388,12 +391,27 @@ _ASKED: Final[dict[str, type[messages.PauseAsked | messages.ResumeAsked | messag
 }
 
 
-def evaluations_until(folder: RunFolder, checkpoint: Checkpoint | None) -> int:
-    """Give how many scorings the log tells of, up to a checkpoint."""
+class LogPast(NamedTuple):
+    """What the log tells of a run up to a checkpoint: scorings, generations, the best ever bred."""
+
+    evaluations: int = 0
+    generations: int = 0
+    best: dict[str, Any] | None = None
+
+
+def past_of(folder: RunFolder, checkpoint: Checkpoint | None) -> LogPast:
+    """Ask the log what came until a checkpoint."""
     if checkpoint is None:
-        return 0
-    sql = f"select coalesce(sum(evaluations), 0) from generations where epoch <= {checkpoint.epoch}"  # noqa: S608
-    return int(ask(folder.log, sql).rows[0][0])
+        return LogPast()
+    until = f"where epoch <= {checkpoint.epoch}"
+    counts = f"select coalesce(sum(evaluations), 0), coalesce(max(generation), 0) from generations {until}"  # noqa: S608
+    (evaluations, generations), *_ = ask(folder.log, counts).rows
+    sql = f"select island, id, fitness from individuals {until} and valid order by fitness desc, id limit 1"  # noqa: S608
+    best = [
+        {"island": island, "id": identity, "fitness": fitness}
+        for island, identity, fitness in ask(folder.log, sql).rows
+    ]
+    return LogPast(int(evaluations), int(generations), best[0] if best else None)
 
 
 def best_row(rows: tuple[IslandSummary, ...]) -> dict[str, Any] | None:

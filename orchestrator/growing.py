@@ -72,7 +72,7 @@ def grow_surface(request: Request) -> dict[str, Any] | str:
     check_output(request.output, FORMS)
     system = parse_system(read_text(request.file, "a rule file"), str(request.file))
     environment = Environment.empty() if request.environment is None else load_environment(request.environment)
-    surface = grow(system, settings, environment, time.perf_counter)
+    surface = grow(system, settings, environment, time.thread_time)
     if isinstance(surface, Failure):
         return f"{request.file} did not grow: {surface}"
     scores = score(surface, environment, CRITERIA)

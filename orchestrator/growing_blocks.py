@@ -40,7 +40,7 @@ def grow_blocks(request: Request) -> dict[str, Any] | str:
     system = parse_blocks(read_text(request.file, "a rule file"), str(request.file))
     if request.steps is not None:
         system = replace(system, iterations=_iterations(request.steps))
-    body = grow(system, growth, time.perf_counter, request.seed)
+    body = grow(system, growth, time.thread_time, request.seed)
     if isinstance(body, Failure):
         return f"{request.file} did not grow: {body}"
     return _measured(request, body, growth, load)

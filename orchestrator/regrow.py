@@ -102,7 +102,7 @@ class Nursery:
         commands = read_commands(folder.store)
         plan = replayed(structure_of(loaded), commands).plan()
         self._past = Past(commands, plan.islands)
-        self._biologies = Biologies(time.perf_counter)
+        self._biologies = Biologies(time.thread_time)
         late = loaded.experiment.schedule == "async"
         self._circumstances = Circumstances(folder, plan, loaded.experiment.seed, late, self.biology)
 

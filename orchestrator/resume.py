@@ -40,8 +40,9 @@ def resumable(folder: RunFolder, overrides: Sequence[str]) -> Loaded:
     # The run's own length gives way to the one that is asked for, whichever key names it.
     longer = any(parse_override(one)[0][0] in ("generations", "epochs") for one in overrides)
     loaded = load_experiment(folder.experiment, overrides, without=("epochs",) if longer else ())
-    if folder.manifest().get("status") == "finished" and not longer:
-        got = f"one that has finished its {loaded.experiment.length} epochs"
+    done = load_experiment(folder.experiment).experiment.length
+    if folder.manifest().get("status") == "finished" and loaded.experiment.length == done:
+        got = f"one that has finished its {done} epochs"
         raise InputError(str(folder.store), "a run with something left to do", got, "--set generations=N, more of them")
     return loaded
 

@@ -18,7 +18,7 @@ NO_FLOOR: Final = -2 * _kernels.FARTHEST
 
 
 def grow(
-    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.monotonic, seed: int | None = None
+    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.thread_time, seed: int | None = None
 ) -> Body | Failure:
     """Grow a body from an L-system.
 
@@ -53,7 +53,7 @@ def grow(
 
 
 def derive(
-    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.monotonic, seed: int | None = None
+    system: LSystem, growth: BlockGrowth | None = None, clock: Clock = time.thread_time, seed: int | None = None
 ) -> Codes | Failure:
     """Rewrite an L-system's axiom as often as it says; give the codes of the last word. Parameters as of :func:`grow`.
 

@@ -27,7 +27,7 @@ def grow(
     system: System,
     settings: SurfaceGrowth | None = None,
     environment: Environment | None = None,
-    clock: Clock = time.monotonic,
+    clock: Clock = time.thread_time,
 ) -> Surface | Failure:
     """Grow a surface from a rewrite system.
 
@@ -59,7 +59,7 @@ def derive(
     system: System,
     settings: SurfaceGrowth | None = None,
     environment: Environment | None = None,
-    clock: Clock = time.monotonic,
+    clock: Clock = time.thread_time,
 ) -> Iterator[HalfEdgeMap | Failure]:
     """Give the map after each step, the seed first; the one map is grown on, so copy what is to be kept.
 

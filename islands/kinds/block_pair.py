@@ -173,6 +173,14 @@ class BlockPairKind:
     growth: ClassVar[type[Settings]] = PairGrowth
     gives: ClassVar[Mapping[ChannelKind, str]] = {"surroundings": MESH}
 
+    def compile_kernels(self) -> None:
+        """Compile the growth's, the loads' and the criteria's."""
+        from evaluators.blocks.warm import compile_kernels as compile_loads
+        from growth.blocks.warm import compile_kernels as compile_growth
+
+        compile_growth()
+        compile_loads()
+
     def build(self, spec: IslandSpec, clock: Clock) -> PairBiology:
         """Find the criteria."""
         return PairBiology(spec, clock)

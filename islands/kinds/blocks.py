@@ -228,6 +228,14 @@ class BlocksKind:
         """Take skeletons on the same lattice as partners."""
         return {"partners": (f"blocks, {spec.growth['lattice']}",)}
 
+    def compile_kernels(self) -> None:
+        """Compile the growth's, the loads' and the criteria's."""
+        from evaluators.blocks.warm import compile_kernels as compile_loads
+        from growth.blocks.warm import compile_kernels as compile_growth
+
+        compile_growth()
+        compile_loads()
+
     def build(self, spec: IslandSpec, clock: Clock) -> BlocksBiology:
         """Find the criteria."""
         genome = LSystemGenome.model_validate(dict(spec.genome))

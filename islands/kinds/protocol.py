@@ -155,7 +155,7 @@ class Kind(Protocol):
     A kind may have more attributes (see :mod:`islands.kinds.trade`). Three say what channels of other kinds than
     ``migrants`` may join it: ``gives`` and ``takes``, from a channel's kind to names of what travels, and ``needs``;
     each may be a method that gives it for an island. ``variation`` names the keys of ``genome`` that may differ within
-    a species.
+    a species. A kind that is :class:`Compiled` is asked to compile before its first island is made.
 
     Attributes
     ----------
@@ -186,4 +186,13 @@ class Kind(Protocol):
         -------
         The genome and growth settings, with the kept files in place of the named ones.
         """
+        ...
+
+
+@runtime_checkable
+class Compiled(Protocol):
+    """A kind that has kernels to compile."""
+
+    def compile_kernels(self) -> None:
+        """Compile them, or read them from where they are kept."""
         ...

@@ -224,6 +224,12 @@ class SurfaceKind:
     variation: ClassVar[frozenset[str]] = frozenset({"crossover", "gene_mutation"})
     takes: ClassVar[Mapping[ChannelKind, tuple[str, ...]]] = {"surroundings": (MESH,)}
 
+    def compile_kernels(self) -> None:
+        """Compile the mapping's, the environment's and the growth's."""
+        from growth.warm import compile_surfaces
+
+        compile_surfaces()
+
     def build(self, spec: IslandSpec, clock: Clock) -> SurfaceBiology:
         """Load the grammar, the environment and the criteria."""
         return SurfaceBiology(spec, clock)

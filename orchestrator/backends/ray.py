@@ -343,7 +343,7 @@ class RayBackend:
         missing = wanted - len(self._actors)
         fresh = self._room(missing) if missing else 0
         if not self._actors and not fresh:
-            raise RunFailedError("no host is left, and no CPU is free for another; go on later: atoll resume RUN")
+            raise RunFailedError("no host is left, and Ray has no room for another; go on later with atoll resume")
         return len(self._actors) + fresh
 
     def _room(self, missing: int) -> int:
