@@ -155,7 +155,7 @@ def test_a_server_that_is_not_there_and_a_bucket_that_is_not(endpoint: str, monk
 
 
 def test_keys_that_are_wrong_are_told_of_and_not_told() -> None:
-    with serving(open_requests=2) as url, reaching(url):
+    with serving(closed=True) as url, reaching(url):
         store = Store.open("s3://bucket/runs")
         for act in CALLS:
             with pytest.raises(StoreError, match="check AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY") as caught:

@@ -235,7 +235,7 @@ def test_a_server_that_is_not_there_is_told_before_anything_runs(endpoint: str, 
 
 def test_keys_that_are_wrong_are_told_before_anything_runs(tmp_path) -> None:
     path = write(tmp_path, bits())
-    with serving(open_requests=2) as url, reaching(url):
+    with serving(closed=True) as url, reaching(url):
         for arguments in (("run", path, "--runs-dir", "s3://bucket/runs"), ("show", "s3://bucket/runs/bits")):
             assert "; check AWS_ACCESS_KEY_ID and AWS_SECRET_ACCESS_KEY" in refused(*arguments)
         told = refused("run", path, "--runs-dir", "s3://anybody:hush-hush-hush@bucket/runs")

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -15,20 +16,18 @@ CLEARED = ("AWS_REGION", "AWS_DEFAULT_REGION", "AWS_ENDPOINT_URL", "AWS_ENDPOINT
 
 
 @contextmanager
-def serving(open_requests: int | None = None) -> Iterator[str]:
+def serving(*, closed: bool = False) -> Iterator[str]:
     """Serve a bucket; give the endpoint's URL.
 
     Parameters
     ----------
-    open_requests
-        How many requests are answered whoever asks; afterwards nobody is known. Without, everybody is let in.
+    closed
+        Once the bucket is made, nobody is known. Without, everybody is let in.
     """
-    limits = {} if open_requests is None else {"INITIAL_NO_AUTH_ACTION_COUNT": str(open_requests)}
     server = subprocess.Popen(
         [sys.executable, "-m", "moto.server", "-H", "127.0.0.1", "-p", "0"],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
-        env={**os.environ, **limits},
         text=True,
     )
     try:
@@ -36,6 +35,12 @@ def serving(open_requests: int | None = None) -> Iterator[str]:
         found = next(filter(None, (re.search(r"http://127\.0\.0\.1:\d+", line) for line in server.stderr)))
         drain = subprocess.Popen(["cat"], stdin=server.stderr, stdout=subprocess.DEVNULL)  # it tells of each request
         make_bucket(found[0])
+        if closed:
+            # As anything but a form, whose content it would take for its own.
+            asked = urllib.request.Request(
+                f"{found[0]}/moto-api/reset-auth", data=b"0", headers={"Content-Type": "text/plain"}
+            )
+            urllib.request.urlopen(asked, timeout=60).close()
         yield found[0]
     finally:
         server.terminate()
