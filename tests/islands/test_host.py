@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import time
+
 from archipelagos import island, spec
+from bits import BitsKind
 
 from islands.forms import best_forms
 from islands.host import Host
@@ -82,6 +85,23 @@ def test_summaries_count_from_the_call_before(tmp_path) -> None:
     host.ready()
     told = [host.advance(epoch, epoch, -1).summaries[0] for epoch in (0, 1, 4)]
     assert [(row.epoch, row.generation, row.evaluations) for row in told] == [(0, 0, 12), (1, 2, 20), (4, 8, 60)]
+
+
+def test_growth_is_timed_by_the_processor_after_kernels_are_compiled(tmp_path, monkeypatch) -> None:
+    """A process that stands still for a while, or waits for the compiler, must not breed others."""
+    told = []
+
+    class Kind(BitsKind):
+        def compile_kernels(self) -> None:
+            told.append("compiled")
+
+        def build(self, given, clock):
+            told.append(clock)
+            return super().build(given, clock)
+
+    monkeypatch.setattr("islands.biologies.resolve_kind", lambda name, where: Kind())
+    Host(HostPlan(0, 1, "test", 5, str(tmp_path), (spec(0),), (), (0,), 1, 3, 1)).ready()
+    assert told == ["compiled", time.thread_time]
 
 
 def test_nothing_goes_on_after_trouble(tmp_path, monkeypatch) -> None:

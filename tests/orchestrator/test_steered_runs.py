@@ -135,14 +135,16 @@ def test_a_pause_stands_still_at_a_checkpoint_until_the_run_goes_on(tmp_path) ->
         def note(self, text: str) -> None:
             super().note(text)
             if text.startswith("paused"):
-                seen.append((json.loads(self.store.read("manifest.json"))["status"], self.store.names("checkpoints")))
+                manifest = json.loads(self.store.read("manifest.json"))
+                seen.append((manifest["status"], self.store.names("checkpoints"), manifest["busy"]))
                 post(self.store, Request("resume", {}), "2026-01-01T01:00:00.000+00:00", "test")
 
     loaded = load_experiment(write(tmp_path, bits(epochs=120, checkpoint={"every": 1000, "spacing": 0.0})))
     helmsman = Looking({3: [Request("pause", {})]})
     outcome = run_experiment(loaded, make_backend(loaded, None), tmp_path / "runs", None, helmsman)
     assert (outcome.status, outcome.generations) == ("finished", 360)
-    ((status, files),) = seen
+    ((status, files, busy),) = seen
+    assert 0 < busy <= 1
     paused = commands(open_run(str(outcome.folder)))[0]["epoch"] - 1
     assert (status, files) == ("paused", [f"e{paused:06d}.json"])
     assert json.loads((outcome.folder / "manifest.json").read_text())["status"] == "finished"
@@ -198,6 +200,24 @@ def test_a_run_is_not_gone_on_with_when_its_past_was_changed(tmp_path) -> None:
         resumable(open_run(str(moved)), ("epochs=22",))
     moved.rename(path)
     assert go_on() == "finished"
+
+
+def test_a_run_that_had_come_to_its_end_keeps_its_figures_when_it_is_gone_on_with(tmp_path) -> None:
+    folder, _, _ = steered(tmp_path, {})
+    before, whole = folder.manifest(), digest(folder.log)
+    for asked in ((), ("epochs=22",), ("hosts=1",)):
+        with pytest.raises(
+            InputError, match="something left to do, got one that has finished its 22"
+        ):
+            resumable(folder, asked)
+    # As a driver leaves it that is killed while forms are written.
+    folder.update(status="running", best=None, generations=0, evaluations=0)
+    loaded = resumable(folder, ())
+    outcome = resume(folder, loaded, make_backend(loaded, None), Helmsman({}))
+    told = ("best", "generations", "evaluations")
+    assert [getattr(outcome, name) for name in told] == [before[name] for name in told]
+    assert [folder.manifest()[name] for name in told] == [before[name] for name in told]
+    assert digest(folder.log) == whole
 
 
 def test_a_log_file_that_is_damaged_inside_sends_a_run_back_to_a_checkpoint_before_it(tmp_path) -> None:
