@@ -206,9 +206,7 @@ def test_a_run_that_had_come_to_its_end_keeps_its_figures_when_it_is_gone_on_wit
     folder, _, _ = steered(tmp_path, {})
     before, whole = folder.manifest(), digest(folder.log)
     for asked in ((), ("epochs=22",), ("hosts=1",)):
-        with pytest.raises(
-            InputError, match="something left to do, got one that has finished its 22"
-        ):
+        with pytest.raises(InputError, match="something left to do, got one that has finished its 22"):
             resumable(folder, asked)
     # As a driver leaves it that is killed while forms are written.
     folder.update(status="running", best=None, generations=0, evaluations=0)
