@@ -32,6 +32,7 @@ RECORD = ROOT / "tests" / "evaluators" / "blocks" / "pynite.json"
 COUNT, LEAST, MOST = 500, 30, 300
 EXPERIMENTS, SEEDS = ("bridge", "high_rise", "helix", "symmetry"), range(1, 3)
 BRED = f"valid and scores['blocks'] between {LEAST} and {MOST} and generation > 0"
+SMALL, FEW = 60, 40
 LIMITS = 100
 LARGEST_LIMIT = 150
 """The linear programs take up to seconds each: as many bodies, of so many blocks at most."""
@@ -244,8 +245,12 @@ def main() -> int:
         bodies = source(np.random.default_rng(7))
         print(f"{name}: {len(bodies)} bodies of {LEAST} to {MOST} blocks")
         good = correlations(bodies)["rigid"][0] >= 0.9 and good
+        if source is evolved:
+            few = [body for body in bodies if len(body.internal) <= SMALL][:FEW]
+            print(f"verdicts on {len(few)} of them of {LEAST} to {SMALL} blocks, beside limit's")
+            agreement(few)
     few = walks(np.random.default_rng(8), LARGEST_LIMIT)[:LIMITS]
-    print(f"verdicts on {LIMITS} bodies of {LEAST} to {LARGEST_LIMIT} blocks, beside limit's")
+    print(f"verdicts on {LIMITS} walks of {LEAST} to {LARGEST_LIMIT} blocks, beside limit's")
     agreement(few)
     return 0 if good else 1
 
