@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -54,7 +55,7 @@ def measure_body(request: Request) -> dict[str, Any] | str:
     InputError
         When the file or a setting is not right, or an option makes no sense without growth.
     """
-    from growth.blocks import read_body
+    from growth.blocks import read_given
 
     if request.steps is not None:
         raise InputError("--steps", "rules to grow from", f"{request.file}, a body as it is")
@@ -62,7 +63,7 @@ def measure_body(request: Request) -> dict[str, Any] | str:
     for key in OF_THE_FILE:
         if key in growth.model_fields_set:
             raise InputError(f"--set {key}", "a setting that the body's file leaves open", f"'{key}'", "write it there")
-    return _measured(request, read_body(request.file, growth), growth, load)
+    return _measured(request, *read_given(request.file, growth), load)
 
 
 def _settings(request: Request) -> tuple[BlockGrowth, LoadSettings]:
@@ -97,13 +98,13 @@ def _iterations(steps: int) -> int:
 
 def _measured(request: Request, body: Body, growth: BlockGrowth, settings: LoadSettings) -> dict[str, Any] | str:
     from evaluators.blocks import BLOCK_CRITERIA, Structure, score
-    from evaluators.blocks.load import analyse, grown_under_load
+    from evaluators.blocks.load import grown_under_load, loaded_throughout
     from growth.protocol import Failure
 
     load = grown_under_load(body, growth, settings)
     failure = ""
     if isinstance(load, Failure):
-        failure, load = str(load), analyse(body, settings)
+        failure, load = str(load), loaded_throughout(body, growth, settings)
     structure = Structure(body, load)
     scores = score(structure, BLOCK_CRITERIA)
     if isinstance(scores, Failure):
@@ -141,7 +142,7 @@ def _told(load: Load, failure: str) -> dict[str, Any]:
         "residual": load.residual,
     }
     if load.factor is not None:
-        told["factor"] = load.factor
+        told["factor"] = load.factor if math.isfinite(load.factor) else None  # nothing bounds it
     if failure:
         told["failure"] = failure
     return told

@@ -6,8 +6,8 @@
 
 from growth.blocks.body import Body
 from growth.blocks.engine import derive, grow, stand
-from growth.blocks.files import read_body
+from growth.blocks.files import read_body, read_given
 from growth.blocks.settings import BlockGrowth
 from growth.blocks.skin import body_surface
 
-__all__ = ["BlockGrowth", "Body", "body_surface", "derive", "grow", "read_body", "stand"]
+__all__ = ["BlockGrowth", "Body", "body_surface", "derive", "grow", "read_body", "read_given", "stand"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -19,7 +20,12 @@ _KEYS: Final = ("cells", "supports", "lattice")
 
 
 def read_body(path: Path, growth: BlockGrowth | None = None) -> Body:
-    """Read a body.
+    """Read a body; see :func:`read_given`."""
+    return read_given(path, growth)[0]
+
+
+def read_given(path: Path, growth: BlockGrowth | None = None) -> tuple[Body, BlockGrowth]:
+    """Read a body, and the growth whose ground, or supports, parts of it stand on.
 
     Parameters
     ----------
@@ -31,8 +37,10 @@ def read_body(path: Path, growth: BlockGrowth | None = None) -> Body:
 
     Returns
     -------
-    Body
+    body
         Its skeleton is the file's cells in their order.
+    growth
+        As given, with the file's lattice and supports.
 
     Raises
     ------
@@ -57,22 +65,34 @@ def read_body(path: Path, growth: BlockGrowth | None = None) -> Body:
             if cell in held:
                 raise InputError(f"{path}: cells", "cells that are no supports", f"{list(cell)}, which is one")
     growth = (growth or BlockGrowth()).model_copy(update={"lattice": lattice, "supports": supports})
-    return stand(np.array(cells, dtype=np.int64), growth)
+    return stand(np.array(cells, dtype=np.int64), growth), growth
 
 
 def _loaded(path: Path) -> dict[str, Any]:
     try:
-        data = json.loads(path.read_text(encoding="utf-8-sig"))
+        data = json.loads(path.read_text(encoding="utf-8-sig"), object_pairs_hook=partial(_once, path))
+    except InputError:
+        raise
     except FileNotFoundError:
         raise InputError(str(path), "a body's file", "no such file", "check the path") from None
     except OSError as error:
         raise InputError(str(path), "a body's file", error.strerror or str(error)) from None
     except json.JSONDecodeError as error:
-        raise InputError(f"{path}:{error.lineno}:{error.colno}", "JSON", error.msg) from None
+        raise InputError(f"{path}:{error.lineno}:{error.colno}", "JSON", f"an error in it: {error.msg}") from None
     except (ValueError, RecursionError):
         raise InputError(str(path), "a body as JSON in UTF-8", "something else") from None
     if not isinstance(data, dict):
         raise InputError(str(path), "a JSON object with the key 'cells'", describe(data))
+    return data
+
+
+def _once(path: Path, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Make an object of its keys and values; a key that is given twice is a mistake, whichever of them was meant."""
+    data = dict(pairs)
+    if len(data) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise InputError(str(path), "each key once", f"'{twice}' twice")
     return data
 
 

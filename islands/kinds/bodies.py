@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pydantic import BeforeValidator
 
 from evaluators.blocks import BLOCK_CRITERIA, Structure, resolve, score
-from evaluators.blocks.load import LoadSettings, analyse, grown_under_load
+from evaluators.blocks.load import LoadSettings, grown_under_load, loaded_throughout
 from evaluators.blocks.load.layers import layers
 from evaluators.fitness import Goal, total
 from genome.errors import InputError
@@ -62,7 +62,9 @@ def structure_of(body: Body, growth: BlockGrowth, load: BlockLoad) -> Structure 
         return Failure("floating", f"{floating.size} blocks are joined to no ground, one at ({x},{y},{z})")
     found = grown_under_load(body, growth, load)
     if isinstance(found, Failure):
-        return found if load.required or found.reason != "unstable" else Structure(body, analyse(body, load))
+        if load.required or found.reason != "unstable":
+            return found
+        found = loaded_throughout(body, growth, load)
     return Structure(body, found)
 
 

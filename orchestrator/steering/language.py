@@ -6,6 +6,7 @@ commands of others may have come in between.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final, NamedTuple
@@ -78,6 +79,8 @@ def _values(verb: str, words: Words) -> dict[str, Any]:
         if key in found:
             raise InputError(f"steer {verb}", "each name once", describe(word))
         found[key] = int(value) if WHOLE.fullmatch(value) else float(value)
+        if not math.isfinite(found[key]):
+            raise InputError(f"steer {verb}", "a number that is not too large to be one", describe(word))
     if not found:
         raise InputError(f"steer {verb}", f"{name}=NUMBER", "nothing", f"for example: {verb} {example}")
     return {"values": found}

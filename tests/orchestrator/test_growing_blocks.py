@@ -105,6 +105,28 @@ def test_a_body_that_does_not_stand_is_told_why(tmp_path: Path) -> None:
     assert "touches no ground" in missing["failure"]
 
 
+def test_a_body_of_a_file_stands_on_its_own_supports_at_every_stage(tmp_path: Path) -> None:
+    """A beam between two walls is a cantilever until it reaches the second."""
+    beam = body_file(tmp_path, [[x, 0, 5] for x in range(1, 8)], [[0, 0, 5], [8, 0, 5]])
+    words = ("--set", "load.model=frame", "--set", "load.torsion_strength=6")
+    assert grown(beam, *words)["stable"] is True
+    told = grown(beam, *words, "--set", "load.stages=7")
+    assert told["stable"] is False
+    assert "torsional 8 over 6 at stage 4 of 7" in told["failure"]
+    # The longest cantilever has 6 blocks.
+    assert told["self_support"] == pytest.approx(1 - 18 / 6)
+    iso = tmp_path / "iso.body.json"
+    iso.write_text(json.dumps({"lattice": "isospatial", "cells": [[0, 0, 0], [0, 1, 1], [0, 2, 2]]}), encoding="utf-8")
+    assert grown(iso, "--set", "load.stages=3")["lattice"] == "isospatial"
+
+
+def test_a_factor_that_nothing_bounds_is_null(tmp_path: Path) -> None:
+    column = body_file(tmp_path, [[0, 0, z] for z in range(4)])
+    assert grown(column, "--set", "load.model=limit")["factor"] is None
+    told = grown(column, "--set", "load.model=limit", "--set", "load.axial_strength=8")
+    assert told["factor"] == pytest.approx(2.0, rel=0.02)
+
+
 def test_the_seed_decides_what_chance_does() -> None:
     tree = SYSTEMS / "tree.blocks"
     own = grown(tree)

@@ -71,6 +71,11 @@ def test_islands_are_named_by_an_option() -> None:
         (("wieght", "a=1"), {}, "steer: expected a verb, got 'wieght'; did you mean 'weight'?"),
         (("pause", "now"), {}, "steer pause: expected nothing after it, got 'now'"),
         (("weight",), {}, "steer weight: expected CRITERION=NUMBER, got nothing; for example: weight size=3"),
+        (
+            ("weight", "size=1e400"),
+            {},
+            "steer weight: expected a number that is not too large to be one, got 'size=1e400'",
+        ),
         (("weight", "size"), {}, "steer weight: expected CRITERION=NUMBER, got 'size'; for example: weight size=3"),
         (
             ("rate", "elite=nan"),

@@ -10,6 +10,6 @@ reference, and :mod:`~evaluators.blocks.load.limit`, the load that plastic joint
 from evaluators.blocks.load.analysis import analyse
 from evaluators.blocks.load.load import Load
 from evaluators.blocks.load.settings import LoadSettings
-from evaluators.blocks.load.stages import grown_under_load
+from evaluators.blocks.load.stages import grown_under_load, loaded_throughout
 
-__all__ = ["Load", "LoadSettings", "analyse", "grown_under_load"]
+__all__ = ["Load", "LoadSettings", "analyse", "grown_under_load", "loaded_throughout"]

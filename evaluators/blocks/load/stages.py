@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -34,23 +35,44 @@ def grown_under_load(body: Body, growth: BlockGrowth, settings: LoadSettings) ->
         The load of the body itself, with the margins of all stages; or ``unstable`` with what fails at the first stage
         that does not stand.
     """
-    from growth.blocks import stand
-
     if settings.dimensions == 2 and not planar(body):
         return Failure("load", "a body in one plane of x and z is wanted (dimensions: 2), its blocks differ in y")
+    loads: list[Load] = []
+    for stage, (present, load) in enumerate(_stages(body, growth, settings), 1):
+        if not load.stable:
+            return Failure("unstable", f"{why_unstable(present, load, settings)} at stage {stage} of {settings.stages}")
+        loads.append(load)
+    return _whole(loads)
+
+
+def loaded_throughout(body: Body, growth: BlockGrowth, settings: LoadSettings) -> Load:
+    """Analyse a body at stages of its growth, whether it stands at them or not; as :func:`grown_under_load` otherwise.
+
+    Raises
+    ------
+    InputError
+        When two dimensions are asked for, and the body has three.
+    """
+    return _whole([load for _, load in _stages(body, growth, settings)])
+
+
+def _stages(body: Body, growth: BlockGrowth, settings: LoadSettings) -> Iterator[tuple[Body, Load]]:
+    """Give what is there at each stage, and its load."""
+    from growth.blocks import stand
+
     count, stages = len(body.internal), settings.stages
     sizes = [-(-count * stage // stages) for stage in range(1, stages + 1)]
-    margins: list[float] = []
     load: Load | None = None
+    present = body
     for stage, size in enumerate(sizes, 1):
         if load is None or size != sizes[stage - 2]:
             present = body if stage == stages or size == count else stand(body.internal[:size], growth)
             load = analyse(present, settings)
-            if not load.stable:
-                return Failure("unstable", f"{why_unstable(present, load, settings)} at stage {stage} of {stages}")
-        margins.append(load.margin)
-    assert load is not None
-    return replace(load, margins=tuple(margins))
+        yield present, load
+
+
+def _whole(loads: Sequence[Load]) -> Load:
+    return replace(loads[-1], margins=tuple(load.margin for load in loads))
 
 
 def why_unstable(body: Body, load: Load, settings: LoadSettings) -> str:

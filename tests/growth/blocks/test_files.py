@@ -42,7 +42,7 @@ def test_without_supports_a_body_stands_on_its_ground(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        ("{", ":1:2: expected JSON, got Expecting property name enclosed in double quotes"),
+        ("{", ":1:2: expected JSON, got an error in it: Expecting property name enclosed in double quotes"),
         ("[]", ": expected a JSON object with the key 'cells', got []"),
         ({}, ": expected a list of cells under 'cells', got none; add the key"),
         ({"cels": []}, ": cels: expected a known key, got 'cels'; did you mean 'cells'?"),
@@ -129,3 +129,10 @@ def test_the_page_of_the_format_says_what_is_so(tmp_path: Path) -> None:
             shown = shown.lower() if isinstance(value, bool) else shown.removesuffix(".0")
             if name not in ("mutations", "supports", "axiom", "max_symbols", "max_depth"):
                 assert rows[name].split(" | ")[1].strip("`") == shown, name
+
+
+def test_a_key_that_is_given_twice_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "x.body.json"
+    path.write_text('{"cells": [[0, 0, 0]], "cells": [[0, 0, 1]]}', encoding="utf-8")
+    with pytest.raises(InputError, match="expected each key once, got 'cells' twice"):
+        read_body(path)
