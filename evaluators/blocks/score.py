@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
-from dataclasses import fields, is_dataclass, replace
-from numbers import Real
-from typing import Any, TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from evaluators.applying import applied, read_only
 from evaluators.blocks.registry import BlockCriterion, resolve_all
 from evaluators.blocks.structure import Structure
-from genome.mishaps import let_pass, told
 from growth.protocol import Failure
-
-T = TypeVar("T")
 
 
 def score(structure: Structure, criteria: Iterable[str] | Mapping[str, BlockCriterion]) -> dict[str, float] | Failure:
@@ -43,32 +34,4 @@ def score(structure: Structure, criteria: Iterable[str] | Mapping[str, BlockCrit
         On Ctrl-C.
     """
     found = criteria if isinstance(criteria, Mapping) else resolve_all(criteria)
-    seen = Structure(_read_only(structure.body), _read_only(structure.load))
-    scores: dict[str, float] = {}
-    for name, criterion in found.items():
-        try:
-            value: object = criterion(seen)
-            if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
-                return Failure("evaluation", f"{name}: a number was expected, not {type(value).__name__}")
-            number = float(value)
-        except BaseException as error:  # noqa: BLE001 - a criterion, a plug-in above all, may fail in any way
-            let_pass(error)
-            return Failure("evaluation", f"{name}: {told(error)}")
-        if not math.isfinite(number):
-            return Failure("evaluation", f"{name}: {number} is not a finite number")
-        scores[name] = number
-    return scores
-
-
-def _read_only(value: T) -> T:
-    """Give a frozen dataclass with views of its arrays that cannot be written to."""
-    assert is_dataclass(value)
-    assert not isinstance(value, type)
-    arrays = {field.name: getattr(value, field.name) for field in fields(value)}
-    return replace(value, **{name: _locked(one) for name, one in arrays.items() if isinstance(one, np.ndarray)})
-
-
-def _locked(array: NDArray[Any]) -> NDArray[Any]:
-    view = array.view()
-    view.flags.writeable = False
-    return view
+    return applied(found, Structure(read_only(structure.body), read_only(structure.load)))
