@@ -46,8 +46,6 @@ class Checkpoint:
         Of all hosts; each island is in one.
     log
         The hosts' log files that end at that epoch or before, by name.
-    evaluations
-        Scorings until then.
     events
         How many files of events of the whole run belong to it: ``run-0000`` and so on.
     commands
@@ -61,7 +59,6 @@ class Checkpoint:
     epoch: int
     parts: tuple[Part, ...]
     log: tuple[LogFile, ...]
-    evaluations: int = 0
     events: int = 0
     commands: int = 0
     facts: Mapping[str, Any] = field(default_factory=dict)
@@ -87,7 +84,6 @@ class _Shape(Settings):
     epoch: int
     parts: list[_Part]
     log: dict[str, Annotated[list[int], Field(min_length=2, max_length=2)]]
-    evaluations: int
     events: int
     commands: int
     facts: dict[str, JsonValue]
@@ -139,7 +135,6 @@ def complete(store: Store, checkpoint: Checkpoint) -> None:
             for part in checkpoint.parts
         ],
         "log": {file.name: [file.bytes, file.crc] for file in checkpoint.log},
-        "evaluations": checkpoint.evaluations,
         "events": checkpoint.events,
         "commands": checkpoint.commands,
         "facts": dict(checkpoint.facts),
@@ -223,7 +218,6 @@ def read(store: Store, epoch: int) -> Checkpoint:
         epoch=epoch,
         parts=tuple(Part(one.file, one.bytes, one.sha256, tuple(one.islands)) for one in shape.parts),
         log=tuple(LogFile(name, *told) for name, told in shape.log.items()),
-        evaluations=shape.evaluations,
         events=shape.events,
         commands=shape.commands,
         facts=shape.facts,

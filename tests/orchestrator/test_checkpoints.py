@@ -77,7 +77,7 @@ class Driver:
         for log in self.logs:
             log.flush(epoch)
         files = log_of(self.before, [log.files for log in self.logs])
-        made = Checkpoint(RUN, SEED, epoch, self.parts(epoch), files, 10 * epoch, self.events, 1, {"told": [1, "x"]})
+        made = Checkpoint(RUN, SEED, epoch, self.parts(epoch), files, self.events, 1, {"told": [1, "x"]})
         made = replace(made, **changes)
         complete(self.store, made)
         return made
@@ -384,6 +384,6 @@ FACTS = st.dictionaries(
 def test_whatever_is_written_is_read(tmp_path_factory, run, seed, epoch, facts) -> None:
     store = Store.open(tmp_path_factory.mktemp("run"))
     part = write_part(store, 0, 3, [Kept(island(4), State((), 0, 0, 0), (), None)])
-    made = Checkpoint(run, seed, epoch, (part,), (LogFile("events/é.parquet", 5, 2**32 - 1),), 1, 2, 3, facts)
+    made = Checkpoint(run, seed, epoch, (part,), (LogFile("events/é.parquet", 5, 2**32 - 1),), 2, 3, facts)
     complete(store, made)
     assert read(store, epoch) == made
