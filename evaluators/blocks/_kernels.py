@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -13,22 +10,15 @@ Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
-def kernel(function: F) -> F:
-    """Compile a function with Numba, kept on disk; strict floating point, one thread."""
-    return cast("F", njit(cache=True)(function))
-
-
-@kernel
+@njit(cache=True)
 def _home(x: int, y: int, z: int, mask: int) -> int:
     """Give the slot of the table at which the search for a cell begins."""
     mixed = x * 73856093 ^ y * 19349663 ^ z * 83492791
     return (mixed ^ (mixed >> 17)) & mask
 
 
-@kernel
+@njit(cache=True)
 def table(cells: Ints) -> Ints:
     """Lay cells out for :func:`place_of`: an open-addressing hash table of their places, -1 where it is empty.
 
@@ -53,7 +43,7 @@ def table(cells: Ints) -> Ints:
     return slots
 
 
-@kernel
+@njit(cache=True)
 def place_of(slots: Ints, cells: Ints, x: int, y: int, z: int) -> int:
     """Give the place of the cell (x, y, z), or -1 where there is none."""
     mask = slots.size - 1
@@ -66,7 +56,7 @@ def place_of(slots: Ints, cells: Ints, x: int, y: int, z: int) -> int:
     return -1
 
 
-@kernel
+@njit(cache=True)
 def touching(cells: Ints, offsets: Ints, contacts: Bytes) -> tuple[Ints, Bytes]:
     """Find all pairs of neighbours.
 
@@ -108,7 +98,7 @@ def touching(cells: Ints, offsets: Ints, contacts: Bytes) -> tuple[Ints, Bytes]:
     return pairs[:found].copy(), kinds[:found].copy()
 
 
-@kernel
+@njit(cache=True)
 def first_hits(cells: Ints, sides: Ints, starts: Floats, within: Ints, ways: Floats) -> Ints:
     """Follow rays from cell to cell, over the faces that they leave by, until each meets one of the cells.
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, Final, TypeVar, cast
+from typing import Final
 
 import numpy as np
 from numba import njit
@@ -13,18 +12,11 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
-F = TypeVar("F", bound=Callable[..., Any])
-
 IN_LINE: Final = 1e-9
 """A share of load whose part across is smaller than this of the whole is along the line to the centre of mass."""
 
 
-def kernel(function: F) -> F:
-    """Compile a function with Numba, kept on disk; strict floating point, one thread."""
-    return cast("F", njit(cache=True)(function))
-
-
-@kernel
+@njit(cache=True)
 def _at_points(points: Floats, members: Ints) -> tuple[Ints, Ints]:
     """Sort joints by where they are, so that those that cross in one point are neighbours.
 
@@ -54,7 +46,7 @@ def _at_points(points: Floats, members: Ints) -> tuple[Ints, Ints]:
     return members[rank], first[: count + 1].copy()
 
 
-@kernel
+@njit(cache=True)
 def _lean(at: Floats, out: Floats, i: int, a: int, b: int, mx: float, my: float, factor: float, evenly: bool) -> None:
     """Let the joints a to b of a part meet the moment (mx, my, 0) about its joint i.
 
@@ -84,7 +76,7 @@ def _lean(at: Floats, out: Floats, i: int, a: int, b: int, mx: float, my: float,
     out[5, i] += tz
 
 
-@kernel
+@njit(cache=True)
 def _part_of_galasyn(at: Floats, shares: Floats, first: Ints, weight: float, out: Floats) -> None:
     """Do one part: joints in order of their points, relative to the centre of mass; see :func:`galasyn`."""
     for i in range(shares.size):
@@ -121,7 +113,7 @@ def _part_of_galasyn(at: Floats, shares: Floats, first: Ints, weight: float, out
         before += at[3, a:b].sum()
 
 
-@kernel
+@njit(cache=True)
 def galasyn(
     points: Floats, stiffness: Floats, first: Ints, order: Ints, weights: Floats, centres: Floats
 ) -> tuple[Floats, Floats]:

@@ -6,8 +6,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
 
 import numpy as np
 from numba import njit
@@ -16,15 +14,8 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
-def kernel(function: F) -> F:
-    """Compile a function with Numba, kept on disk; strict floating point, one thread."""
-    return cast("F", njit(cache=True)(function))
-
-
-@kernel
+@njit(cache=True)
 def depths(count: int, joints: Ints, starts: NDArray[np.bool_]) -> Ints:
     """Tell how many joints lie between each block and the nearest start: breadth first.
 
@@ -76,7 +67,7 @@ def depths(count: int, joints: Ints, starts: NDArray[np.bool_]) -> Ints:
     return depth
 
 
-@kernel
+@njit(cache=True)
 def by_group(group: Ints, count: int) -> tuple[Ints, Ints]:
     """Sort things by group: those of group g are ``order[first[g] : first[g + 1]]``; those of -1 are left out."""
     first = np.zeros(count + 1, dtype=np.int64)
@@ -94,7 +85,7 @@ def by_group(group: Ints, count: int) -> tuple[Ints, Ints]:
     return first, order
 
 
-@kernel
+@njit(cache=True)
 def _root(above: Ints, i: int) -> int:
     """Find what stands for the block's part, and shorten the way there."""
     while above[i] != i:
@@ -103,7 +94,7 @@ def _root(above: Ints, i: int) -> int:
     return i
 
 
-@kernel
+@njit(cache=True)
 def _join(above: Ints, size: Ints, total: Ints, a: int, b: int) -> None:
     """Make the parts of two blocks one, with the sums of their sizes and coordinates."""
     a, b = _root(above, a), _root(above, b)
@@ -116,7 +107,7 @@ def _join(above: Ints, size: Ints, total: Ints, a: int, b: int) -> None:
             total[a, axis] += total[b, axis]
 
 
-@kernel
+@njit(cache=True)
 def parts_above(cells: Ints, depth: Ints, joints: Ints) -> tuple[Ints, Ints, Floats]:
     """Find the connected parts of the blocks above each layer, from the deepest layer down.
 
@@ -169,7 +160,7 @@ def parts_above(cells: Ints, depth: Ints, joints: Ints) -> tuple[Ints, Ints, Flo
     return part, counts[:found].copy(), centres[:found].copy()
 
 
-@kernel
+@njit(cache=True)
 def imbalance(points: Floats, forces: Floats, moments: Floats, part: Ints, weights: Floats, centres: Floats) -> Floats:
     """Tell how far each part is from equilibrium.
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -12,15 +9,8 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
-def kernel(function: F) -> F:
-    """Compile a function with Numba, kept on disk; strict floating point, one thread."""
-    return cast("F", njit(cache=True)(function))
-
-
-@kernel
+@njit(cache=True)
 def _turn(
     a: float, b: float, c: float, d: float, e: float, f: float, mx: float, my: float
 ) -> tuple[float, float, float]:
@@ -36,7 +26,7 @@ def _turn(
     return mx / a - l21 * ty - l31 * tz, ty, tz
 
 
-@kernel
+@njit(cache=True)
 def _middle(points: Floats, stiffness: Floats, members: Ints) -> tuple[float, float, float, float]:
     """Give the sum of the joints' stiffnesses, and their centre of stiffness."""
     k = x = y = z = 0.0
@@ -49,7 +39,7 @@ def _middle(points: Floats, stiffness: Floats, members: Ints) -> tuple[float, fl
     return k, x / k, y / k, z / k
 
 
-@kernel
+@njit(cache=True)
 def rigid(
     points: Floats, stiffness: Floats, turning: float, first: Ints, order: Ints, weights: Floats, centres: Floats
 ) -> tuple[Floats, Floats]:
