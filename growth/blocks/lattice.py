@@ -134,6 +134,17 @@ def _isospatial() -> Lattice:
     )
 
 
+def _square() -> Lattice:
+    """Make the cells of a plane, z = 0: in it a turtle yaws, and pitching or rolling mirrors its heading."""
+    whole = _cubic()
+    flat = whole.offsets[:, 2] == 0
+    return Lattice(
+        "square", whole.offsets[flat], whole.contacts[flat], np.empty(0, dtype=np.int64),
+        int(_places(whole.offsets[flat], (0, 1, 0))[0]),
+        parity=False, corners=whole.corners, faces=whole.faces, volume=1.0,
+    )  # fmt: skip
+
+
 def _places(offsets: Ints, *wanted: tuple[int, int, int]) -> Ints:
     known = {tuple(offset): place for place, offset in enumerate(offsets.tolist())}
     return np.array([known[one] for one in wanted], dtype=np.int64)
@@ -155,4 +166,11 @@ CUBIC: Final = _cubic()
 ISOSPATIAL: Final = _isospatial()
 """Rhombic dodecahedra at the points of even coordinate sum, and their 12 neighbours."""
 
+SQUARE: Final = _square()
+"""Unit squares of one storey, drawn as cubes, and their 8 neighbours: for plans (Jackson 2002)."""
+
 LATTICES: Final[Mapping[str, Lattice]] = MappingProxyType({one.name: one for one in (CUBIC, ISOSPATIAL)})
+"""Those that bodies stand in, by name."""
+
+ALL_LATTICES: Final[Mapping[str, Lattice]] = MappingProxyType({**LATTICES, SQUARE.name: SQUARE})
+"""All, the plane among them, by name."""
