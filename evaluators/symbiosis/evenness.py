@@ -36,7 +36,7 @@ def evenness(symbiosis: Symbiosis) -> float:
         return 0.0
     lattice = symbiosis.lattice
     sides = lattice.offsets[lattice.contacts == FACE]
-    cells = np.stack(np.unravel_index(walls, around.grid.shape), axis=1)
+    cells = around.grid.cells(walls)
     faces = lines = 0
     for side, step in zip(sides, around.grid.steps(sides), strict=True):
         faces += int(np.count_nonzero(around.outside[walls + step]))

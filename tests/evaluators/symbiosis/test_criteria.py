@@ -1,6 +1,8 @@
 """Criteria of symbiotic species: against a plain reference, and what all of them must hold to."""
 
+import gc
 import math
+import weakref
 
 import numpy as np
 import pytest
@@ -81,6 +83,19 @@ class TestMeasuring:
         assert one.surroundings is one.surroundings
         assert one.surroundings.outside is one.surroundings.outside
         assert isinstance(surroundings(one), Surroundings)
+
+    def test_grids_are_given_back_without_the_collector(self):
+        """Hosts keep the collector from their work, so that what holds itself would stay."""
+        gc.disable()
+        try:
+            one = partners(shell(CUBIC, 2), ball(CUBIC, 1), [(2, 0, 0)])
+            score(one, LOGGED)
+            assert [SYMBIOSIS_CRITERIA[name](one) for name in LOGGED]
+            kept = weakref.ref(one.surroundings)
+            del one
+            assert kept() is None
+        finally:
+            gc.enable()
 
     def test_boxes_without_end_are_a_failure(self):
         wide = partners([(0, 0, 0)], [(2**62, 5, 0)])
