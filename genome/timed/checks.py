@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Final
 
 from genome.errors import InputError
 from genome.settings import near
@@ -23,7 +24,10 @@ from genome.timed.reading import COMMANDS
 from genome.timed.scope import Scope
 from genome.timed.system import BRACKETS, CLOSE, OPEN, RESERVED, Birth, Development, Production, TimedSystem
 
-ROUNDING = 1e-9
+MOST_NESTED: Final = 10
+"""How deep development functions may call each other."""
+
+ROUNDING: Final = 1e-9
 """Chances of productions that ask for the same may add up to this much over 1."""
 
 
@@ -204,6 +208,8 @@ class _Checks:
     def _no_circle(self, development: Development, scope: Scope, before: tuple[str, ...]) -> None:
         if (id(scope.system), development.symbol) in self.sound:
             return
+        if len(before) > MOST_NESTED:
+            raise self._error(development.at, f"development functions that call at most {MOST_NESTED} deep", "more")
         if development.symbol in before:
             circle = " ".join(DEVELOPMENT + symbol for symbol in (*before, development.symbol))
             raise self._error(development.at, "development functions that call no circle", circle)

@@ -1,8 +1,8 @@
 """Expressions of timed L-systems: trees of numbers, names, operators and functions, and how they are written.
 
 Operators have the precedence of C, with ``^`` as power, right to left, above unary minus and multiplication
-(McCormack, section 3.1): ``-2^2`` is -4 and ``2*3^2`` is 18. Relations and logical operators give 1 or 0. Trees are values: two that
-are equal mean the same, wherever they were read.
+(McCormack, section 3.1): ``-2^2`` is -4 and ``2*3^2`` is 18. Relations and logical operators give 1 or 0. Trees are
+values: two that are equal mean the same, wherever they were read.
 """
 
 from __future__ import annotations

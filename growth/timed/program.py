@@ -1,0 +1,239 @@
+"""Compiling timed systems: every symbol becomes a code, every expression instructions of the stack machine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Final, NamedTuple, final
+
+import numpy as np
+
+from genome.errors import InputError
+from genome.timed import Birth, Formal, Production, Scope, TimedSystem
+from genome.timed.expression import ZERO, draws
+from genome.timed.system import AGE, BRACKETS, TERMINAL
+from growth.timed.assembler import Assembler, Meanings, Place
+from growth.timed.tables import NONE, OPEN_CODE, START_CODE, TROUBLES, Tables
+
+START: Final = "axiom"
+"""What messages call that which the axiom comes from."""
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Program:
+    """A timed system, compiled.
+
+    Attributes
+    ----------
+    tables
+        For the kernels.
+    names
+        The symbol of each code, as files and words have it.
+    commands
+        The symbol that the turtle takes each code for.
+    contextual
+        Whether a production asks for contexts: then instants are rewritten one after the other.
+    radians
+        Whether turns are in radians.
+    """
+
+    tables: Tables
+    names: tuple[str, ...]
+    commands: tuple[str, ...]
+    contextual: bool
+    radians: bool
+
+
+class _Rule(NamedTuple):
+    """A production with its codes and numbers of expressions."""
+
+    condition: int
+    chance: int
+    left: int
+    right: int
+    births: tuple[int, int]
+
+
+class _Symbol(NamedTuple):
+    """What becomes of a code."""
+
+    rules: list[_Rule]
+    end: int
+    growth: int
+    calls: bool
+    again: bool
+
+
+class _Born(NamedTuple):
+    """A birth with its code and numbers of expressions."""
+
+    code: int
+    arguments: tuple[int, int]
+    age: int
+
+
+def compile_system(system: TimedSystem) -> Program:
+    """Compile a system that is checked.
+
+    Raises
+    ------
+    InputError
+        When a define has no value, or the system is too large.
+    """
+    return _Compiler(system).program()
+
+
+class _Compiler:
+    """Compiles one system and those inside it."""
+
+    def __init__(self, system: TimedSystem) -> None:
+        self.system = system
+        self.assembler = Assembler(2 + _widest(system))
+        self.zero = self.assembler.constant(0.0)
+        self.codes: dict[tuple[int, str], int] = {}
+        self.names: list[str] = []
+        self.commands: list[str] = []
+        self.waiting: list[tuple[Place, str]] = []
+        self.births: list[_Born] = []
+        self.symbols: list[_Symbol] = []
+        self.ignored: dict[int, bool] = {}
+
+    def program(self) -> Program:
+        outermost = self._inside(Scope(self.system), None)
+        for bracket in BRACKETS:
+            self._code(outermost, bracket)
+        self.names.append(START)
+        self.commands.append(START)
+        self.waiting.append((outermost, START))
+        assert self.names.index("[") == OPEN_CODE
+        assert len(self.names) == START_CODE + 1
+        self._ignore(outermost)
+        # Codes are given where a symbol is first met; what they become is compiled in the same order.
+        while len(self.symbols) < len(self.waiting):
+            code = len(self.symbols)
+            self.symbols.append(self._symbol(*self.waiting[code], started=code != START_CODE))
+        rules = [rule for symbol in self.symbols for rule in symbol.rules]
+        contextual = any(rule.left != NONE or rule.right != NONE for rule in rules)
+        return Program(self._tables(rules), tuple(self.names), tuple(self.commands), contextual, self.system.radians)
+
+    def _inside(self, scope: Scope, outer: Place | None) -> Place:
+        """Give the place of a system, its defines evaluated."""
+        defines: dict[str, float] = {} if outer is None else dict(outer.defines)
+        place = Place(scope, defines, outer)
+        for define in scope.system.defines:
+            value, trouble = self.assembler.value(self.assembler.add(define.value, place.meanings({}), place))
+            if trouble or not math.isfinite(value):
+                got = TROUBLES.get(trouble, "a value that is not finite")
+                raise InputError(scope.system.complaint_place(define.at), f"a value of {define.name}", got)
+            defines[define.name] = value
+        return place
+
+    def _ignore(self, place: Place) -> None:
+        for symbol in place.scope.system.ignored:
+            self.ignored[self._code(place, symbol)] = True
+
+    def _code(self, place: Place, symbol: str) -> int:
+        """Give the code of a symbol as seen from a place."""
+        owner = place.owner(symbol)
+        key = id(owner.scope.system), symbol
+        if key not in self.codes:
+            self.codes[key] = len(self.names)
+            self.names.append(symbol)
+            self.commands.append(owner.scope.command(symbol))
+            self.waiting.append((owner, symbol))
+        return self.codes[key]
+
+    def _symbol(self, place: Place, symbol: str, *, started: bool) -> _Symbol:
+        inner = place.scope.inside(symbol) if started else None
+        if inner is not None or not started:
+            inside = place if inner is None else self._inside(Scope(inner, place.scope), place)
+            if inner is not None:
+                self._ignore(inside)
+            meanings = inside.meanings(_numbered(inside.scope.system.parameters))
+            rule = _Rule(NONE, NONE, NONE, NONE, self._word(inside.scope.system.axiom, inside, meanings))
+            return _Symbol([rule], self.zero, NONE, calls=True, again=False)
+        productions = place.scope.productions(symbol)
+        end = NONE
+        if productions:
+            first = productions[0]
+            end = self.assembler.add(first.end, place.meanings(_numbered(first.predecessor.parameters)), place)
+        rules = [self._rule(production, place) for production in productions]
+        return _Symbol(rules, end, self._growth(place, symbol), calls=False, again=any(map(_changes, productions)))
+
+    def _rule(self, production: Production, place: Place) -> _Rule:
+        meanings = place.meanings(_numbered(production.formals))
+        condition, chance = (
+            NONE if expression is None else self.assembler.add(expression, meanings, place)
+            for expression in (production.condition, production.chance)
+        )
+        left, right = (self._context(formal, place) for formal in (production.left, production.right))
+        return _Rule(condition, chance, left, right, self._word(production.successor, place, meanings))
+
+    def _context(self, formal: Formal | None, place: Place) -> int:
+        return NONE if formal is None else self._code(place, formal.symbol)
+
+    def _word(self, word: tuple[Birth, ...], place: Place, meanings: Meanings) -> tuple[int, int]:
+        begin = len(self.births)
+        for birth in word:
+            arguments = self.assembler.row(birth.arguments, meanings, place)
+            age = self.zero if birth.age == ZERO else self.assembler.add(birth.age, meanings, place)
+            self.births.append(_Born(self._code(place, birth.symbol), arguments, age))
+        return begin, len(self.births)
+
+    def _growth(self, place: Place, symbol: str) -> int:
+        development = place.scope.development(symbol)
+        if development is None:
+            return NONE
+        slots = {name: 2 + slot for name, slot in place.scope.slots(development).items()}
+        return self.assembler.add(development.body, place.meanings({**slots, AGE: 0, TERMINAL: 1}), place)
+
+    def _tables(self, rules: list[_Rule]) -> Tables:
+        made = self.assembler
+        counts = [0, *(len(symbol.rules) for symbol in self.symbols)]
+        return Tables(
+            ops=_ints(made.ops),
+            args=np.array(made.args, dtype=np.float64),
+            spans=_ints(made.spans).reshape(-1, 2),
+            known=np.array(made.known, dtype=np.float64),
+            room=made.room,
+            productions=np.cumsum(_ints(counts)),
+            conditions=_ints([rule.condition for rule in rules]),
+            chances=_ints([rule.chance for rule in rules]),
+            lefts=_ints([rule.left for rule in rules]),
+            rights=_ints([rule.right for rule in rules]),
+            births=_ints([rule.births for rule in rules]).reshape(-1, 2),
+            codes=_ints([birth.code for birth in self.births]),
+            arguments=_ints([birth.arguments for birth in self.births]).reshape(-1, 2),
+            ages=_ints([birth.age for birth in self.births]),
+            ends=_ints([symbol.end for symbol in self.symbols]),
+            growths=_ints([symbol.growth for symbol in self.symbols]),
+            calls=np.array([symbol.calls for symbol in self.symbols], dtype=np.bool_),
+            again=np.array([symbol.again for symbol in self.symbols], dtype=np.bool_),
+            ignored=np.array([self.ignored.get(code, False) for code in range(len(self.symbols))], dtype=np.bool_),
+        )
+
+
+def _ints(values: object) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
+    return np.array(values, dtype=np.int64)
+
+
+def _numbered(names: tuple[str, ...]) -> Mapping[str, int]:
+    return {name: slot for slot, name in enumerate(names)}
+
+
+def _changes(production: Production) -> bool:
+    """Whether a production that does not match now may match later."""
+    if production.left is not None or production.right is not None or production.chance is not None:
+        return True
+    return production.condition is not None and draws(production.condition)
+
+
+def _widest(system: TimedSystem) -> int:
+    """Give the most parameters that anything has."""
+    words = [system.axiom, *(production.successor for production in system.productions)]
+    counts = [len(birth.arguments) for word in words for birth in word]
+    counts += [len(production.formals) for production in system.productions]
+    counts += [len(development.names) for development in system.developments]
+    return max([len(system.parameters), *counts, *map(_widest, system.systems)])
