@@ -1,23 +1,28 @@
 """The kernels of timed growth: the stack machine of expressions, rewriting by events, and development functions.
 
-Every module is computed by itself, by scalar code, and draws from its own lineage: neither the order of modules nor the
-times asked for change a bit. `tests/support/reference_timed.py` is the same as plain Python, and must give equal results.
+Every module is computed by itself, by scalar code, and draws from its own lineage: neither the order of modules nor
+the times asked for change a bit. `tests/support/reference_timed.py` is the same as plain Python, and must give equal
+results.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from growth.timed.tables import (
-    ABS, ACOS, ADD, ARC_DOMAIN, ASIN, ATAN, BESSEL_DOMAIN, BESSELJ, CEIL, CLOSE_CODE, COS, DIV, DIVISION, EQ, EVENTS, EXP,
-    FLOOR, GE, GT, IN_BIRTH_AGE, IN_CHANCE, IN_CONDITION, IN_DEVELOPMENT, IN_END, IN_PARAMETER, JUMP, JUMP_IF_NOT, LE,
-    LOAD, LOG, LOG_DOMAIN, LT, MAX, MIN, MOD, MODULES, MUL, NE, NEG, NEGATIVE_AGE, NO_CHANCE, NONE, NORMAL, NOT, NOT_FINITE,
-    OPEN_CODE, POW, POWER_DOMAIN, PUSH, RANDOM, ROOT, ROOT_DOMAIN, SIGN, SIN, SPREAD, SQRT, STORE, SUB, TAN, TRUTH, Flags,
-    Floats, Ints, Modules, Tables,
+    ABS, ADD, AGAIN, ARC_DOMAIN, ASIN, ASKS, AT, ATAN, BESSEL_DOMAIN, BIRTH_AGE, BORN, CALLS, CHANCE, CHILD,
+    CLOSE_CODE, CODE, COLUMNS, CONDITION, COS, COUNT, DIES, DIV, DIVISION, END, EQ, EVENTS, EXP, FIRST_ARGUMENT,
+    FIRST_BIRTH, FIRST_CHILD, FIRST_RULE, FLOOR, FULL, Floats, GE, GROWTH, GT, HEIGHT, HELD, IGNORED, IN_BIRTH_AGE,
+    IN_CHANCE, IN_CONDITION, IN_END, IN_PARAMETER, Ints, JUMP, JUMP_IF_NOT, KEY, LAST_ARGUMENT, LAST_BIRTH,
+    LAST_CHILD, LAST_RULE, LE, LEFT, LOAD, LOG, LOG_DOMAIN, LT, MARKS, MAX, MIN, MOD, MODULES, MUL, Modules, NE, NEG,
+    NEGATIVE_AGE, NEXT_CHILD, NONE, NOT, NOT_FINITE, NO_CHANCE, OPEN_CODE, ORIGIN, PILE_COLUMNS, PLAIN, POW,
+    POWER_DOMAIN, PUSH, RANDOM, RIGHT, ROLE, ROOT, ROOT_DOMAIN, SIGN, SIN, SPREAD, SQRT, START, STOP, STORE, SUB,
+    TALLY, TAN, TRUTH, Tables,
 )  # fmt: skip
 
 _GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
@@ -28,7 +33,7 @@ _CHOICE: Final = 1 << 40
 _BIRTH: Final = 1 << 41
 _LIFE: Final = 1 << 42
 _GROWTH: Final = 1 << 43
-"""Numbers of branches of a lineage: which production, the terminal age, those that are born, the development function."""
+"""Numbers of branches of a lineage: choice of production, terminal age, those that are born, development function."""
 
 _FARTHEST: Final = 1e5
 """Bessel functions are computed of numbers and orders up to this."""
@@ -89,6 +94,22 @@ def root(n: float, x: float) -> tuple[float, int]:
 
 
 @njit(cache=True)
+def angular(op: int, x: float) -> tuple[float, int]:
+    """Carry out an instruction from SIN to ATAN."""
+    if op == SIN:
+        return math.sin(x), 0
+    if op == COS:
+        return math.cos(x), 0
+    if op == TAN:
+        return math.tan(x), 0
+    if op == ATAN:
+        return math.atan(x), 0
+    if not -1.0 <= x <= 1.0:
+        return 0.0, ARC_DOMAIN
+    return math.asin(x) if op == ASIN else math.acos(x), 0
+
+
+@njit(cache=True)
 def unary(op: int, x: float) -> tuple[float, int]:
     """Carry out an instruction that takes one value."""
     if op == NEG:
@@ -97,18 +118,8 @@ def unary(op: int, x: float) -> tuple[float, int]:
         return 1.0 if x == 0.0 else 0.0, 0
     if op == TRUTH:
         return 0.0 if x == 0.0 else 1.0, 0
-    if op == SIN:
-        return math.sin(x), 0
-    if op == COS:
-        return math.cos(x), 0
-    if op == TAN:
-        return math.tan(x), 0
-    if op in (ASIN, ACOS):
-        if not -1.0 <= x <= 1.0:
-            return 0.0, ARC_DOMAIN
-        return math.asin(x) if op == ASIN else math.acos(x), 0
-    if op == ATAN:
-        return math.atan(x), 0
+    if op <= ATAN:
+        return angular(op, x)
     if op == SQRT:
         return (math.sqrt(x), 0) if x >= 0.0 else (0.0, ROOT_DOMAIN)
     if op == EXP:
@@ -122,6 +133,20 @@ def unary(op: int, x: float) -> tuple[float, int]:
     if not abs(x) < 2.0**52:  # whole already, or infinite
         return x, 0
     return np.float64(math.floor(x)) if op == FLOOR else np.float64(math.ceil(x)), 0
+
+
+@njit(cache=True)
+def compared(op: int, x: float, y: float) -> bool:
+    """Compare two values."""
+    if op == EQ:
+        return x == y
+    if op == NE:
+        return x != y
+    if op == LT:
+        return x < y
+    if op == GT:
+        return x > y
+    return x <= y if op == LE else x >= y
 
 
 @njit(cache=True)
@@ -139,18 +164,8 @@ def binary(op: int, x: float, y: float) -> tuple[float, int]:
         return (np.fmod(x, y), 0) if y != 0.0 else (0.0, DIVISION)
     if op == POW:
         return power(x, y)
-    if op == EQ:
-        return 1.0 if x == y else 0.0, 0
-    if op == NE:
-        return 1.0 if x != y else 0.0, 0
-    if op == LT:
-        return 1.0 if x < y else 0.0, 0
-    if op == GT:
-        return 1.0 if x > y else 0.0, 0
-    if op == LE:
-        return 1.0 if x <= y else 0.0, 0
-    if op == GE:
-        return 1.0 if x >= y else 0.0, 0
+    if EQ <= op <= GE:
+        return 1.0 if compared(op, x, y) else 0.0, 0
     if op == MIN:
         return min(x, y), 0
     if op == MAX:
@@ -170,13 +185,14 @@ def drawn(op: int, x: float, y: float, key: np.uint64, site: int) -> tuple[float
 
 
 @njit(cache=True)
-def evaluated(tables: Tables, expression: int, slots: Floats, key: np.uint64, stack: Floats) -> tuple[float, int]:
+def evaluated(ops: Ints, args: Floats, spans: Ints, expression: int, slots: Floats, key: np.uint64,
+              stack: Floats) -> tuple[float, int]:  # fmt: skip
     """Evaluate an expression.
 
     Parameters
     ----------
-    tables
-        The system.
+    ops, args, spans
+        As of :class:`~growth.timed.tables.Tables`.
     expression
         Its number.
     slots
@@ -194,26 +210,20 @@ def evaluated(tables: Tables, expression: int, slots: Floats, key: np.uint64, st
         0, or what is wrong.
     """
     top = -1
-    at, stop = tables.spans[expression, 0], tables.spans[expression, 1]
+    at, stop = spans[expression, 0], spans[expression, 1]
     while at < stop:
-        op, arg = tables.ops[at], tables.args[at]
+        op, arg = ops[at], args[at]
         at += 1
         trouble = 0
-        if op == PUSH:
+        if op <= LOAD:
             top += 1
-            stack[top] = arg
-        elif op == LOAD:
-            top += 1
-            stack[top] = slots[int(arg)]
-        elif op == STORE:
-            slots[int(arg)] = stack[top]
-            top -= 1
-        elif op == JUMP:
-            at = int(arg)
-        elif op == JUMP_IF_NOT:
-            if stack[top] == 0.0:
+            stack[top] = arg if op == PUSH else slots[int(arg)]
+        elif op <= JUMP_IF_NOT:
+            if op == STORE:
+                slots[int(arg)] = stack[top]
+            elif op == JUMP or stack[top] == 0.0:
                 at = int(arg)
-            top -= 1
+            top -= op != JUMP
         elif op < ADD:
             stack[top], trouble = unary(op, stack[top])
         else:
@@ -230,29 +240,69 @@ def evaluated(tables: Tables, expression: int, slots: Floats, key: np.uint64, st
 
 
 @njit(cache=True)
-def lasted(tables: Tables, code: int, values: Floats, start: int, count: int, key: np.uint64, slots: Floats,
-           stack: Floats) -> tuple[float, int]:  # fmt: skip
-    """Give the terminal age of a module, infinite where it never dies, and what is wrong with it."""
-    expression = tables.ends[code]
-    if expression == NONE:
+def lasted(ops: Ints, args: Floats, spans: Ints, known: Floats, end: int, given: Floats, key: np.uint64,
+           slots: Floats, stack: Floats) -> tuple[float, int]:  # fmt: skip
+    """Give the terminal age of a module, infinite where it never dies, and what is wrong with it.
+
+    Parameters
+    ----------
+    ops, args, spans, known
+        As of :class:`~growth.timed.tables.Tables`.
+    end
+        The expression, or NONE.
+    given, key
+        The module's parameters and key.
+    slots, stack
+        (room,) written.
+    """
+    if end == NONE:
         return math.inf, 0
-    value = tables.known[expression]
+    value = known[end]
     if value != value:
-        for place in range(count):
-            slots[place] = values[start + place]
-        value, trouble = evaluated(tables, expression, slots, branched(key, _BIRTH), stack)
+        slots[: given.size] = given
+        value, trouble = evaluated(ops, args, spans, end, slots, branched(key, _BIRTH), stack)
         if trouble:
             return 0.0, trouble
     return (value, 0) if value >= 0.0 else (0.0, NEGATIVE_AGE)
 
 
 @njit(cache=True)
-def chosen(tables: Tables, code: int, at: int, count: int, word: Modules, lefts: Ints, rights: Ints,
-           moment: np.uint64, slots: Floats, stack: Floats) -> tuple[int, int, int]:  # fmt: skip
+def joined(wanted: int, other: int, whole: Ints, values: Floats, slots: Floats, filled: int) -> int:
+    """Put the parameters of a context behind those before it; give how many there are, NONE where it does not fit."""
+    if wanted == NONE:
+        return filled
+    if other == NONE or whole[other, CODE] != wanted:
+        return NONE
+    for value in range(whole[other, START], whole[other, STOP]):
+        slots[filled] = values[value]
+        filled += 1
+    return filled
+
+
+@njit(cache=True)
+def chosen(ops: Ints, args: Floats, spans: Ints, rules: Ints, first: int, last: int, left: int, right: int, count: int,
+           whole: Ints, values: Floats, moment: np.uint64, slots: Floats, stack: Floats) -> tuple[int, int, int]:  # fmt: skip
     """Choose a production of a module, whose parameters the slots hold; NONE where none matches.
 
     Productions are asked in their order. Of those that match, each with a chance takes its part of one random number;
     one without takes all that is left.
+
+    Parameters
+    ----------
+    ops, args, spans, rules
+        As of :class:`~growth.timed.tables.Tables`.
+    first, last
+        The productions of its symbol.
+    left, right
+        Its contexts in the word, or NONE.
+    count
+        How many parameters it has.
+    whole, values
+        The word.
+    moment
+        Its key at this instant.
+    slots, stack
+        (room,) of slots and stack.
 
     Returns
     -------
@@ -262,33 +312,21 @@ def chosen(tables: Tables, code: int, at: int, count: int, word: Modules, lefts:
         What is wrong, and with what.
     """
     passed, number = 0.0, -1.0
-    for production in range(tables.productions[code], tables.productions[code + 1]):
-        filled = count
-        met = True
-        for side in range(2):
-            wanted = tables.lefts[production] if side == 0 else tables.rights[production]
-            if wanted == NONE:
-                continue
-            other = lefts[at] if side == 0 else rights[at]
-            if other == NONE or word.codes[other] != wanted:
-                met = False
-                break
-            for value in range(word.starts[other], word.starts[other + 1]):
-                slots[filled] = word.values[value]
-                filled += 1
-        if not met:
+    for production in range(first, last):
+        filled = joined(rules[production, LEFT], left, whole, values, slots, count)
+        if filled != NONE:
+            filled = joined(rules[production, RIGHT], right, whole, values, slots, filled)
+        if filled == NONE:
             continue
-        condition = tables.conditions[production]
-        if condition != NONE:
-            truth, trouble = evaluated(tables, condition, slots, moment, stack)
+        if rules[production, CONDITION] != NONE:
+            truth, trouble = evaluated(ops, args, spans, rules[production, CONDITION], slots, moment, stack)
             if trouble:
                 return NONE, trouble, IN_CONDITION
             if truth == 0.0:
                 continue
-        chance = tables.chances[production]
-        if chance == NONE:
+        if rules[production, CHANCE] == NONE:
             return production, 0, 0
-        part, trouble = evaluated(tables, chance, slots, moment, stack)
+        part, trouble = evaluated(ops, args, spans, rules[production, CHANCE], slots, moment, stack)
         if trouble or not 0.0 <= part <= 1.0:
             return NONE, trouble or NO_CHANCE, IN_CHANCE
         if number < 0.0:
@@ -300,129 +338,253 @@ def chosen(tables: Tables, code: int, at: int, count: int, word: Modules, lefts:
 
 
 @njit(cache=True)
-def roomy(modules: int, values: int) -> Modules:
-    """Give room for so many modules and parameters."""
-    starts = np.empty(modules + 1, dtype=np.int64)
-    starts[0] = 0
-    return Modules(
-        np.empty(modules, dtype=np.int64), starts, np.empty(values, dtype=np.float64), np.empty(modules, dtype=np.float64),
-        np.empty(modules, dtype=np.float64), np.empty(modules, dtype=np.uint64), np.empty(modules, dtype=np.int64),
-    )  # fmt: skip
+def longer(rows: NDArray[Any]) -> NDArray[Any]:
+    """Give the same rows with room for twice as many."""
+    more = np.empty((2 * rows.shape[0], rows.shape[1]), dtype=rows.dtype)
+    more[: rows.shape[0]] = rows
+    return more
 
 
 @njit(cache=True)
-def with_room(modules: Modules, count: int, more: int, values: int) -> Modules:
-    """Give the same modules with room for so many more, and so many parameters more."""
-    held = modules.starts[count]
-    if count + more <= modules.codes.size and held + values <= modules.values.size:
-        return modules
-    larger = roomy(max(modules.codes.size, 2 * count + more), max(modules.values.size, 2 * held + values))
-    larger.codes[:count] = modules.codes[:count]
-    larger.starts[: count + 1] = modules.starts[: count + 1]
-    larger.values[:held] = modules.values[:held]
-    larger.origins[:count] = modules.origins[:count]
-    larger.dies[:count] = modules.dies[:count]
-    larger.keys[:count] = modules.keys[:count]
-    larger.asks[:count] = modules.asks[:count]
-    return larger
+def extended(values: Floats) -> Floats:
+    """Give the same values with room for twice as many."""
+    more = np.empty(2 * values.size, dtype=np.float64)
+    more[: values.size] = values
+    return more
 
 
 @njit(cache=True)
-def copied(source: Modules, at: int, target: Modules, count: int) -> None:
-    """Put one module behind the others of a target that has room for it."""
-    start, held = source.starts[at], target.starts[count]
-    length = source.starts[at + 1] - start
-    for place in range(length):
-        target.values[held + place] = source.values[start + place]
-    target.codes[count] = source.codes[at]
-    target.starts[count + 1] = held + length
-    target.origins[count] = source.origins[at]
-    target.dies[count] = source.dies[at]
-    target.keys[count] = source.keys[at]
-    target.asks[count] = source.asks[at]
-
-
-@njit(cache=True)
-def trimmed(modules: Modules, count: int) -> Modules:
-    """Give the first modules without the room behind them."""
-    return Modules(
-        modules.codes[:count].copy(), modules.starts[: count + 1].copy(), modules.values[: modules.starts[count]].copy(),
-        modules.origins[:count].copy(), modules.dies[:count].copy(), modules.keys[:count].copy(), modules.asks[:count].copy(),
-    )  # fmt: skip
-
-
-@njit(cache=True)
-def born(tables: Tables, birth: int, place: int, instant: float, moment: np.uint64, slots: Floats, target: Modules,
-         count: int, own: Floats, stack: Floats) -> tuple[int, int]:  # fmt: skip
-    """Put a module that is born behind the others of a target that has room for it.
+def put(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, births: Ints, top: int, pile: Ints,
+        times: Floats, pairs: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints, limit: float, room: int,
+        slots: Floats, own: Floats, stack: Floats) -> int:  # fmt: skip
+    """Put the children of the module on top of a pile behind the others, from left to right.
 
     Parameters
     ----------
-    tables, birth
-        The system, and which birth of it.
-    place
-        The birth's place in its successor, which with the parent's key gives its own.
-    instant
-        When.
-    moment, slots
-        The parent's key at its death, and its parameters.
-    target, count
-        The modules, and how many there are.
+    ops, args, spans, known, symbols, births
+        As of :class:`~growth.timed.tables.Tables`.
+    top, pile, times, pairs
+        The pile; its top has decided what becomes of it, and how far that is done.
+    whole, reals, values
+        The modules that stay.
+    marks
+        How many of these there are, and parameters.
+    limit
+        Children who die up to this instant do not stay: the first of them goes on the pile.
+    room
+        The most parameters of a module.
+    slots
+        (room,) the parameters of the module on top, and of its contexts.
     own, stack
         (room,) written.
 
     Returns
     -------
-    trouble, role
-        0 and 0, or what is wrong and with what; the module then stands there without age and terminal age.
+    trouble
+        0 when all children stand there, CHILD when one is on the pile now, FULL when there is no room. Else what is
+        wrong: with the child that stands behind the others then, and with what of it the marks say.
     """
-    code = tables.codes[birth]
-    held = target.starts[count]
-    target.codes[count], target.asks[count] = code, 0
-    target.origins[count] = target.dies[count] = instant
-    first, last = tables.arguments[birth, 0], tables.arguments[birth, 1]
-    target.starts[count + 1] = held
-    for expression in range(first, last):
-        value = tables.known[expression]
-        if value != value:
-            value, trouble = evaluated(tables, expression, slots, moment, stack)
+    count, held, instant = marks[COUNT], marks[HELD], times[top, DIES]
+    moment = branched(np.uint64(pile[top, KEY]), pile[top, ASKS])
+    last = pile[top, LAST_CHILD]
+    for birth in range(pile[top, NEXT_CHILD], last):
+        pile[top, NEXT_CHILD], marks[COUNT], marks[HELD] = birth, count, held
+        if count == whole.shape[0] or held + room > values.size:
+            return FULL
+        code, stop = births[birth, BORN], held
+        key = branched(moment, _LIFE + birth - pile[top, FIRST_CHILD])
+        whole[count, CODE], whole[count, ASKS], whole[count, KEY] = code, 0, np.int64(key)
+        whole[count, START] = whole[count, STOP] = held
+        reals[count, ORIGIN] = reals[count, DIES] = instant
+        for expression in range(births[birth, FIRST_ARGUMENT], births[birth, LAST_ARGUMENT]):
+            value = known[expression]
+            if not abs(value) < math.inf:
+                value, trouble = evaluated(ops, args, spans, expression, slots, moment, stack)
+                if trouble or abs(value) == math.inf:
+                    marks[ROLE] = IN_PARAMETER
+                    return trouble or NOT_FINITE
+            values[stop] = value
+            stop += 1
+        whole[count, STOP] = stop
+        age = known[births[birth, BIRTH_AGE]]
+        if not 0.0 <= age < math.inf:
+            age, trouble = evaluated(ops, args, spans, births[birth, BIRTH_AGE], slots, moment, stack)
+            if trouble or not 0.0 <= age < math.inf:
+                marks[ROLE] = IN_BIRTH_AGE
+                return trouble or (NEGATIVE_AGE if age < 0.0 else NOT_FINITE)
+        end = symbols[code, END]
+        lifetime = math.inf if end == NONE else known[end]
+        if not lifetime >= 0.0:
+            lifetime, trouble = lasted(ops, args, spans, known, end, values[held:stop], key, own, stack)
             if trouble:
-                return trouble, IN_PARAMETER
-        if abs(value) == math.inf:
-            return NOT_FINITE, IN_PARAMETER
-        target.values[held + expression - first] = value
-    target.starts[count + 1] = held + last - first
-    age = tables.known[tables.ages[birth]]
-    if age != age:
-        age, trouble = evaluated(tables, tables.ages[birth], slots, moment, stack)
+                marks[ROLE] = IN_END
+                return trouble
+        dies = instant - age if symbols[code, CALLS] else max(instant, instant - age + lifetime)
+        reals[count, ORIGIN], reals[count, DIES] = instant - age, dies
+        if dies <= limit:
+            pile[top, NEXT_CHILD] = birth + 1
+            return CHILD
+        count, held = count + 1, stop
+    marks[COUNT], marks[HELD] = count, held
+    return 0
+
+
+@njit(cache=True)
+def decided(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rules: Ints, sides: Ints, at: int,
+            given: Ints, numbers: Floats, top: int, pile: Ints, times: Floats, pairs: Floats, marks: Ints,
+            slots: Floats, own: Floats, stack: Floats) -> int:  # fmt: skip
+    """Decide what becomes of the module on top of a pile, which dies now, and whose parameters the slots hold.
+
+    Parameters
+    ----------
+    ops, args, spans, known, symbols, rules
+        As of :class:`~growth.timed.tables.Tables`.
+    sides, at, given, numbers
+        The contexts of the word's modules, which of them this is or comes from, and the word.
+    top, pile, times, pairs
+        The pile.
+    marks
+        Events are counted here.
+    slots, own, stack
+        (room,) slots, and two that are written.
+
+    Returns
+    -------
+    trouble
+        0; the pile says which children are to come, or, with none of them, when the module is asked again. Else what
+        is wrong with the module, and the marks with what of it.
+    """
+    code, start, stop = pile[top, CODE], pile[top, START], pile[top, STOP]
+    key = np.uint64(pile[top, KEY])
+    production = symbols[code, FIRST_RULE]
+    marks[TALLY] += 1
+    if not symbols[code, PLAIN]:
+        left, right = (sides[at, 0], sides[at, 1]) if sides.shape[0] else (NONE, NONE)
+        production, trouble, role = chosen(
+            ops, args, spans, rules, symbols[code, FIRST_RULE], symbols[code, LAST_RULE], left, right, stop - start,
+            given, numbers, branched(key, pile[top, ASKS]), slots, stack,
+        )  # fmt: skip
         if trouble:
-            return trouble, IN_BIRTH_AGE
-    if not 0.0 <= age < math.inf:
-        return NEGATIVE_AGE if age < 0.0 else NOT_FINITE, IN_BIRTH_AGE
-    key = branched(moment, _LIFE + place)
-    target.keys[count] = key
-    target.origins[count] = instant - age
-    if tables.calls[code]:
-        target.dies[count] = instant - age
-        return 0, 0
-    end, trouble = lasted(tables, code, target.values, held, last - first, key, own, stack)
-    if trouble:
-        return trouble, IN_END
-    target.dies[count] = max(instant, instant - age + end)
-    return 0, 0
+            marks[ROLE] = role
+            return trouble
+    if production != NONE:
+        first, last = rules[production, FIRST_BIRTH], rules[production, LAST_BIRTH]
+        pile[top, FIRST_CHILD], pile[top, NEXT_CHILD], pile[top, LAST_CHILD] = first, first, last
+        marks[TALLY] += last - first
+        return 0
+    span = math.inf
+    if symbols[code, AGAIN]:
+        span, _ = lasted(ops, args, spans, known, symbols[code, END], pairs[start:stop], key, own, stack)
+    # Without time passing nothing would ever be otherwise.
+    times[top, DIES] = times[top, DIES] + span if span > 0.0 else math.inf
+    pile[top, ASKS] += 1
+    return 0
 
 
 @njit(cache=True)
-def alone(source: Modules, at: int) -> Modules:
-    """Give one module by itself."""
-    one = roomy(1, source.starts[at + 1] - source.starts[at])
-    copied(source, at, one, 0)
-    return one
+def moved(source: Ints, lives: Floats, numbers: Floats, at: int, target: Ints, times: Floats, values: Floats, row: int,
+          held: int) -> int:  # fmt: skip
+    """Write a module into a row of others, its parameters from a place on; give the place behind them."""
+    stop = held
+    for place in range(source[at, START], source[at, STOP]):
+        values[stop] = numbers[place]
+        stop += 1
+    target[row, CODE], target[row, ASKS], target[row, KEY] = source[at, CODE], source[at, ASKS], source[at, KEY]
+    target[row, START], target[row, STOP] = held, stop
+    times[row, ORIGIN], times[row, DIES] = lives[at, ORIGIN], lives[at, DIES]
+    return stop
 
 
 @njit(cache=True)
-def advanced(tables: Tables, word: Modules, limit: float, deep: bool, lefts: Ints, rights: Ints, events: int,
-             most_events: int, most_modules: int) -> tuple[Modules, int, int, int]:  # fmt: skip
+def kept(given: Ints, lives: Floats, numbers: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints,
+         limit: float, room: int) -> int:  # fmt: skip
+    """Copy modules of a word behind the others, up to the next that dies; tell whether there was no room for all."""
+    at, count, held = marks[AT], marks[COUNT], marks[HELD]
+    full = False
+    while at < given.shape[0] and lives[at, DIES] > limit:
+        full = count == whole.shape[0] or held + room > values.size
+        if full:
+            break
+        begin, end = given[at, START], given[at, STOP]
+        whole[count, CODE], whole[count, ASKS], whole[count, KEY] = given[at, CODE], given[at, ASKS], given[at, KEY]
+        whole[count, START] = held
+        reals[count, ORIGIN], reals[count, DIES] = lives[at, ORIGIN], lives[at, DIES]
+        for place in range(begin, end):
+            values[held] = numbers[place]
+            held += 1
+        whole[count, STOP] = held
+        count, at = count + 1, at + 1
+    marks[AT], marks[COUNT], marks[HELD] = at, count, held
+    return FULL if full else 0
+
+
+@njit(cache=True)
+def run(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rules: Ints, births: Ints, given: Ints,
+        lives: Floats, numbers: Floats, sides: Ints, whole: Ints, reals: Floats, values: Floats, pile: Ints,
+        times: Floats, pairs: Floats, marks: Ints, limit: float, deep: bool, most: int, room: int, slots: Floats,
+        own: Floats, stack: Floats) -> int:  # fmt: skip
+    """Rewrite as far as there is room; parameters as of :func:`put`, :func:`decided` and :func:`advanced`.
+
+    The pile holds a module that dies, above it the child that dies with which its successor has been left, and so on.
+
+    Returns
+    -------
+    trouble
+        0 when all is done, FULL when there is no room; what is wrong, with what the marks say of what; or EVENTS.
+    """
+    while True:
+        if not marks[HEIGHT]:
+            if kept(given, lives, numbers, whole, reals, values, marks, limit, room) == FULL:
+                return FULL
+            if marks[AT] == given.shape[0]:
+                return 0
+            moved(given, lives, numbers, marks[AT], pile, times, pairs, 0, 0)
+            pile[0, NEXT_CHILD] = NONE
+            marks[HEIGHT] = 1
+            marks[AT] += 1
+        top = marks[HEIGHT] - 1
+        for place in range(pile[top, START], pile[top, STOP]):
+            slots[place - pile[top, START]] = pairs[place]
+        if pile[top, NEXT_CHILD] == NONE:
+            if marks[COUNT] == whole.shape[0] or marks[HELD] + room > values.size:
+                return FULL
+            trouble = decided(ops, args, spans, known, symbols, rules, sides, marks[AT] - 1, given, numbers, top, pile,
+                              times, pairs, marks, slots, own, stack)  # fmt: skip
+            if trouble or marks[TALLY] > most:
+                return trouble or EVENTS
+            if pile[top, NEXT_CHILD] == NONE:
+                if times[top, DIES] > limit or not deep:
+                    held = moved(pile, times, pairs, top, whole, reals, values, marks[COUNT], marks[HELD])
+                    marks[COUNT], marks[HELD], marks[HEIGHT] = marks[COUNT] + 1, held, top
+                continue
+        if top + 2 > pile.shape[0] or pile[top, STOP] + room > pairs.size:
+            return FULL
+        trouble = put(ops, args, spans, known, symbols, births, top, pile, times, pairs, whole, reals, values, marks,
+                      limit if deep else -math.inf, room, slots, own, stack)  # fmt: skip
+        if trouble == CHILD:
+            moved(whole, reals, values, marks[COUNT], pile, times, pairs, top + 1, pile[top, STOP])
+            pile[top + 1, NEXT_CHILD] = NONE
+            marks[HEIGHT] += 1
+        elif trouble:
+            return trouble
+        else:
+            marks[HEIGHT] = top
+
+
+@njit(cache=True)
+def alone(whole: Ints, reals: Floats, values: Floats, at: int) -> Modules:
+    """Give one module by itself; none where there is none."""
+    one, own = np.zeros((min(at + 1, 1), COLUMNS), np.int64), np.empty(0)
+    if at >= 0:
+        own = values[whole[at, START] : whole[at, STOP]].copy()
+        one[0] = whole[at, :COLUMNS]
+        one[0, START], one[0, STOP] = 0, own.size
+    return Modules(one, reals[at : at + one.shape[0]].copy(), own)
+
+
+@njit(cache=True)
+def advanced(tables: Tables, word: Modules, limit: float, deep: bool, sides: Ints, events: int, most_events: int,
+             most_modules: int) -> tuple[Modules, int, int, int]:  # fmt: skip
     """Rewrite the modules that die up to an instant, each by itself, from left to right.
 
     Parameters
@@ -435,8 +597,8 @@ def advanced(tables: Tables, word: Modules, limit: float, deep: bool, lefts: Int
         The instant.
     deep
         Whether those born go on dying up to then; without, each module is asked once.
-    lefts, rights
-        (m,) int64, the contexts of each module, or NONE; empty where the system asks for none.
+    sides
+        (m, 2) int64, the contexts of each module, or NONE; (0, 2) where the system asks for none.
     events
         How many births and askings there have been.
     most_events, most_modules
@@ -451,94 +613,68 @@ def advanced(tables: Tables, word: Modules, limit: float, deep: bool, lefts: Int
     trouble, role
         0 and 0, or what is wrong and with what.
     """
+    count, room = word.whole.shape[0], max(tables.most_values, 1)
     slots, own, stack = np.empty(tables.room), np.empty(tables.room), np.empty(tables.room)
-    out, pile = roomy(word.codes.size + 16, word.values.size + 16), roomy(64, 64)
-    count = 0
-    for at in range(word.codes.size):
-        pile = with_room(pile, 0, 1, word.starts[at + 1] - word.starts[at])
-        copied(word, at, pile, 0)
-        height, fresh = 1, True
-        while height > 0:
-            height -= 1
-            if pile.dies[height] > limit or not (deep or fresh):
-                if deep and count >= most_modules:
-                    return roomy(0, 0), events, MODULES, 0
-                out = with_room(out, count, 1, pile.starts[height + 1] - pile.starts[height])
-                copied(pile, height, out, count)
-                count += 1
-                continue
-            fresh = False
-            code, instant, start = pile.codes[height], pile.dies[height], pile.starts[height]
-            given = pile.starts[height + 1] - start
-            for place in range(given):
-                slots[place] = pile.values[start + place]
-            moment = branched(pile.keys[height], pile.asks[height])
-            events += 1
-            production, trouble, role = chosen(
-                tables, code, at, given, word, lefts, rights, moment, slots, stack
-            )
-            if trouble:
-                return alone(pile, height), events, trouble, role
-            if production == NONE:
-                pile.asks[height] += 1
-                span = math.inf
-                if tables.again[code]:
-                    span, _ = lasted(tables, code, pile.values, start, given, pile.keys[height], own, stack)
-                pile.dies[height] = instant + span if span > 0.0 else math.inf
-                height += 1
-                continue
-            first, last = tables.births[production, 0], tables.births[production, 1]
-            events += last - first
-            if events > most_events:
-                return roomy(0, 0), events, EVENTS, 0
-            for birth in range(last - 1, first - 1, -1):
-                pile = with_room(pile, height, 1, tables.arguments[birth, 1] - tables.arguments[birth, 0])
-                trouble, role = born(
-                    tables, birth, birth - first, instant, moment, slots, pile, height, own, stack
-                )
-                if trouble:
-                    return alone(pile, height), events, trouble, role
-                height += 1
-    return trimmed(out, count), events, 0, 0
+    whole, reals = np.empty((count + 64, COLUMNS), np.int64), np.empty((count + 64, 2))
+    values, pairs = np.empty(word.values.size + 64 * room), np.empty(64 * room)
+    pile, times = np.empty((64, PILE_COLUMNS), np.int64), np.empty((64, 2))
+    marks = np.zeros(MARKS, np.int64)
+    marks[TALLY] = events
+    while True:
+        trouble = run(
+            tables.ops, tables.args, tables.spans, tables.known, tables.symbols, tables.rules, tables.births, word.whole,
+            word.reals, word.values, sides, whole, reals, values, pile, times, pairs, marks, limit, deep, most_events,
+            room, slots, own, stack,
+        )  # fmt: skip
+        count = marks[COUNT]
+        if trouble != FULL or (deep and count > most_modules):
+            break
+        if count == whole.shape[0]:
+            whole, reals = longer(whole), longer(reals)
+        if marks[HELD] + room > values.size:
+            values = extended(values)
+        if marks[HEIGHT] + 1 > pile.shape[0]:
+            pile, times = longer(pile), longer(times)
+        if marks[HEIGHT] and pile[marks[HEIGHT] - 1, STOP] + room > pairs.size:
+            pairs = extended(pairs)
+    if deep and count > most_modules and trouble in (0, FULL):
+        trouble = MODULES
+    if trouble == 0:
+        return Modules(whole[:count], reals[:count], values[: marks[HELD]]), marks[TALLY], 0, 0
+    of_child = marks[ROLE] in (IN_PARAMETER, IN_BIRTH_AGE, IN_END)
+    failed = alone(whole, reals, values, count) if of_child else alone(pile, times, pairs, marks[HEIGHT] - 1)
+    return failed, marks[TALLY], trouble, marks[ROLE]
 
 
 @njit(cache=True)
-def neighbours(codes: Ints, ignored: Flags) -> tuple[Ints, Ints]:
+def neighbours(whole: Ints, symbols: Ints) -> Ints:
     """Give the contexts of every module, or NONE.
 
     Returns
     -------
-    lefts
-        (m,) int64, the nearest module before it on the way to the root.
-    rights
-        (m,) int64, the next module on its own branch.
+    sides
+        (m, 2) int64: the nearest module before it on the way to the root, and the next on its own branch.
     """
-    lefts, rights = np.full(codes.size, NONE, dtype=np.int64), np.full(codes.size, NONE, dtype=np.int64)
-    waiting = np.empty(codes.size + 1, dtype=np.int64)
-    height, near = 0, np.int64(NONE)
-    for at in range(codes.size):
-        lefts[at] = near
-        if codes[at] == OPEN_CODE:
-            waiting[height] = near
-            height += 1
-        elif codes[at] == CLOSE_CODE:
-            height -= 1
-            near = waiting[height]
-        elif not ignored[codes[at]]:
-            near = np.int64(at)
-    height, near = 0, np.int64(NONE)
-    for at in range(codes.size - 1, -1, -1):
-        rights[at] = near
-        if codes[at] == CLOSE_CODE:
-            waiting[height] = near
-            height += 1
-            near = np.int64(NONE)
-        elif codes[at] == OPEN_CODE:
-            height -= 1
-            near = waiting[height]
-        elif not ignored[codes[at]]:
-            near = np.int64(at)
-    return lefts, rights
+    count = whole.shape[0]
+    sides = np.full((count, 2), NONE, dtype=np.int64)
+    waiting = np.empty(count + 1, dtype=np.int64)
+    for side in range(2):
+        height, near = 0, NONE
+        opens, closes = (OPEN_CODE, CLOSE_CODE) if side == 0 else (CLOSE_CODE, OPEN_CODE)
+        for step in range(count):
+            at = step if side == 0 else count - 1 - step
+            code = whole[at, CODE]
+            sides[at, side] = near
+            if code == opens:
+                waiting[height] = near
+                height += 1
+                near = near if side == 0 else NONE
+            elif code == closes:
+                height -= 1
+                near = waiting[height]
+            elif not symbols[code, IGNORED]:
+                near = at
+    return sides
 
 
 @njit(cache=True)
@@ -554,21 +690,21 @@ def developed(tables: Tables, word: Modules, time: float) -> tuple[Floats, Float
     trouble, at
         0 and 0, or what is wrong and with which module.
     """
-    ages, factors = np.empty(word.codes.size), np.ones(word.codes.size)
-    values = word.values.copy()
+    ops, args, spans, known, symbols = tables.ops, tables.args, tables.spans, tables.known, tables.symbols
+    whole, reals, numbers = word.whole, word.reals, word.values
+    ages, factors, values = np.empty(whole.shape[0]), np.ones(whole.shape[0]), numbers.copy()
     slots, own, stack = np.empty(tables.room), np.empty(tables.room), np.empty(tables.room)
-    for at in range(word.codes.size):
+    for at in range(whole.shape[0]):
         # An event a rounding after the time has happened all the same: ages are not negative.
-        ages[at] = max(0.0, time - word.origins[at])
-        growth = tables.growths[word.codes[at]]
-        if growth == NONE:
+        ages[at] = max(0.0, time - reals[at, ORIGIN])
+        code, start, stop, key = whole[at, CODE], whole[at, START], whole[at, STOP], np.uint64(whole[at, KEY])
+        if symbols[code, GROWTH] == NONE:
             continue
-        start, stop = word.starts[at], word.starts[at + 1]
         slots[0] = ages[at]
-        slots[1], _ = lasted(tables, word.codes[at], word.values, start, stop - start, word.keys[at], own, stack)
+        slots[1], _ = lasted(ops, args, spans, known, symbols[code, END], numbers[start:stop], key, own, stack)
         for place in range(start, stop):
-            slots[2 + place - start] = word.values[place]
-        factor, trouble = evaluated(tables, growth, slots, branched(word.keys[at], _GROWTH), stack)
+            slots[2 + place - start] = numbers[place]
+        factor, trouble = evaluated(ops, args, spans, symbols[code, GROWTH], slots, branched(key, _GROWTH), stack)
         if trouble or abs(factor) == math.inf:
             return ages, factors, values, trouble or NOT_FINITE, at
         factors[at] = factor

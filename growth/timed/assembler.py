@@ -23,9 +23,6 @@ from growth.timed.tables import (
     STORE,
     TRUTH,
     UNARY_CODES,
-    Floats,
-    Ints,
-    Tables,
 )
 
 Meanings = Mapping[str, int | float]
@@ -107,8 +104,8 @@ class Assembler:
     def value(self, number: int) -> tuple[float, int]:
         """Evaluate an expression that asks for no slot; give its value, and what is wrong with it."""
         spans = np.array([self.spans[number]], dtype=np.int64)
-        tables = bare_tables(np.array(self.ops, dtype=np.int64), np.array(self.args), spans, self.room)
-        return _kernels.evaluated(tables, 0, np.empty(self.room), np.uint64(0), np.empty(self.room))
+        ops, args = np.array(self.ops, dtype=np.int64), np.array(self.args, dtype=np.float64)
+        return _kernels.evaluated(ops, args, spans, 0, np.empty(self.room), np.uint64(0), np.empty(self.room))
 
     def _put(self, expression: Expression, meanings: Meanings, place: Place | None) -> int:
         begin = len(self.ops)
@@ -245,11 +242,3 @@ class Assembler:
     def _grow(self) -> None:
         self._height += 1
         self.room = max(self.room, self._height + 1)
-
-
-def bare_tables(ops: Ints, args: Floats, spans: Ints, room: int) -> Tables:
-    """Give tables that hold expressions alone."""
-    none, pairs, no = np.empty(0, dtype=np.int64), np.empty((0, 2), dtype=np.int64), np.empty(0, dtype=np.bool_)
-    known = np.empty(0, dtype=np.float64)
-    return Tables(ops, args, spans, known, room, none, none, none, none, none, pairs, none, pairs, none, none, none,
-                  no, no, no)  # fmt: skip

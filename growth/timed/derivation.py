@@ -1,8 +1,8 @@
-"""Derivation by events: the word of a timed system at any time, however that time was come to (McCormack, section 3.1).
+"""Derivation by events: the word of a timed system at any time, whichever times came before (McCormack, section 3.1).
 
-A module dies at the instant at which it reaches its terminal age; its children are born then. Instants are computed from
-instants, never from the times asked for, and what a module draws at random is a function of its lineage: a derivation
-that goes on from an earlier time gives the same bits as one from the axiom.
+A module dies at the instant at which it reaches its terminal age; its children are born then. Instants are computed
+from instants, never from the times asked for, and what a module draws at random is a function of its lineage: a
+derivation that goes on from an earlier time gives the same bits as one from the axiom.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from growth.protocol import Clock, Failure
 from growth.timed import _kernels
 from growth.timed.program import Program, compile_system
 from growth.timed.settings import TimedGrowth
-from growth.timed.tables import EVENTS, MODULES, ROLES, START_CODE, TROUBLES, Modules
+from growth.timed.tables import CODE, DIES, EVENTS, MODULES, ROLES, START, START_CODE, TROUBLES, Ints, Modules
 from growth.timed.word import Word
 
 CLOSE: Final = 2.0**-40
@@ -30,7 +30,7 @@ CLOSE: Final = 2.0**-40
 SEEDS: Final = 2**63
 """Seeds are integers from 0 up to, and without, this."""
 
-_NOBODY: Final = np.empty(0, dtype=np.int64)
+_NOBODY: Final = np.empty((0, 2), dtype=np.int64)
 
 
 @final
@@ -85,7 +85,7 @@ class Derivation:
         if isinstance(reached, Failure):
             return reached
         state, events = reached
-        if len(state.codes) > self.budget.max_modules:
+        if len(state.whole) > self.budget.max_modules:
             return _too_large(MODULES, self.budget, time)
         return replace(self, time=time, state=state, events=events)
 
@@ -100,10 +100,11 @@ class Derivation:
         program, state = self.program, self.state
         ages, factors, values, trouble, at = _kernels.developed(program.tables, state, self.time)
         if trouble:
-            module = _described(program, _kernels.alone(state, at))
+            module = _described(program, _kernels.alone(*state, at))
             role = f"the development function of {module}"
             return Failure("expression", f"{TROUBLES[trouble]}, in {role} at time {self.time:.9g}")
-        return Word(self.time, program.names, program.commands, state.codes, state.starts, values, ages, factors,
+        codes, starts = state.whole[:, CODE].copy(), np.append(state.whole[:, START], len(values))
+        return Word(self.time, program.names, program.commands, codes, starts, values, ages, factors,
                     program.radians)  # fmt: skip
 
 
@@ -157,16 +158,8 @@ def derive(
 
 def _at_the_axiom(program: Program, seed: int, budget: TimedGrowth) -> Derivation:
     """Give the one module that the axiom comes from at time 0."""
-    zero = np.zeros(1)
-    state = Modules(
-        codes=np.array([START_CODE], dtype=np.int64),
-        starts=np.zeros(2, dtype=np.int64),
-        values=np.empty(0),
-        origins=zero,
-        dies=zero,
-        keys=np.array([seed], dtype=np.uint64),
-        asks=np.zeros(1, dtype=np.int64),
-    )
+    whole = np.array([[START_CODE, 0, seed, 0, 0]], dtype=np.int64)
+    state = Modules(whole, np.zeros((1, 2)), np.empty(0))
     return Derivation(program, seed, budget, 0.0, state, 0)
 
 
@@ -175,7 +168,7 @@ _Reached = tuple[Modules, int] | Failure
 
 def _at_once(origin: Derivation, horizon: float, deadline: float, clock: Clock) -> _Reached:
     """Rewrite every module by itself up to the horizon: without contexts none has to do with another."""
-    reached = _advanced(origin, origin.state, horizon, origin.events, (_NOBODY, _NOBODY), deep=True)
+    reached = _advanced(origin, origin.state, horizon, origin.events, _NOBODY, deep=True)
     return Failure("clock", "the growth took longer than max_seconds") if clock() > deadline else reached
 
 
@@ -183,10 +176,10 @@ def _by_instants(origin: Derivation, horizon: float, deadline: float, clock: Clo
     """Rewrite instant by instant; all who die at one see the word as it stood before it."""
     state, events = origin.state, origin.events
     while True:
-        instant = float(state.dies.min(initial=math.inf))
+        instant = float(state.reals[:, DIES].min(initial=math.inf))
         if instant > horizon:
             return state, events
-        sides = _kernels.neighbours(state.codes, origin.program.tables.ignored)
+        sides = _kernels.neighbours(state.whole, origin.program.tables.symbols)
         reached = _advanced(origin, state, instant + abs(instant) * CLOSE, events, sides, deep=False)
         if isinstance(reached, Failure):
             return reached
@@ -195,17 +188,15 @@ def _by_instants(origin: Derivation, horizon: float, deadline: float, clock: Clo
             return Failure("clock", "the growth took longer than max_seconds")
 
 
-def _advanced(
-    origin: Derivation, state: Modules, limit: float, events: int, sides: tuple[np.ndarray, np.ndarray], *, deep: bool
-) -> _Reached:
+def _advanced(origin: Derivation, state: Modules, limit: float, events: int, sides: Ints, *, deep: bool) -> _Reached:
     program, budget = origin.program, origin.budget
     state, events, trouble, role = _kernels.advanced(
-        program.tables, state, limit, deep, *sides, events, budget.max_events, budget.max_modules
+        program.tables, state, limit, deep, sides, events, budget.max_events, budget.max_modules
     )
     if trouble in (EVENTS, MODULES):
         return _too_large(trouble, budget, limit)
     if trouble:
-        what = f"{ROLES[role]} of {_described(program, state)} at time {float(state.dies[0]):.9g}"
+        what = f"{ROLES[role]} of {_described(program, state)} at time {float(state.reals[0, DIES]):.9g}"
         return Failure("expression", f"{TROUBLES[trouble]}, in {what}")
     return state, events
 
@@ -220,5 +211,5 @@ def _too_large(trouble: int, budget: TimedGrowth, time: float) -> Failure:
 def _described(program: Program, module: Modules) -> str:
     """Write a single module, its parameters not developed."""
     values = ", ".join(f"{value:.6g}" for value in module.values.tolist())
-    name = program.names[int(module.codes[0])]
+    name = program.names[int(module.whole[0, CODE])]
     return f"{name}({values})" if values else name

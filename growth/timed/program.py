@@ -14,7 +14,7 @@ from genome.timed import Birth, Formal, Production, Scope, TimedSystem
 from genome.timed.expression import ZERO, draws
 from genome.timed.system import AGE, BRACKETS, TERMINAL
 from growth.timed.assembler import Assembler, Meanings, Place
-from growth.timed.tables import NONE, OPEN_CODE, START_CODE, TROUBLES, Tables
+from growth.timed.tables import NONE, OPEN_CODE, START_CODE, TROUBLES, Ints, Tables
 
 START: Final = "axiom"
 """What messages call that which the axiom comes from."""
@@ -54,6 +54,11 @@ class _Rule(NamedTuple):
     left: int
     right: int
     births: tuple[int, int]
+
+    @property
+    def plain(self) -> bool:
+        """Whether it asks for nothing."""
+        return (self.condition, self.chance, self.left, self.right) == (NONE, NONE, NONE, NONE)
 
 
 class _Symbol(NamedTuple):
@@ -190,33 +195,32 @@ class _Compiler:
         return self.assembler.add(development.body, place.meanings({**slots, AGE: 0, TERMINAL: 1}), place)
 
     def _tables(self, rules: list[_Rule]) -> Tables:
-        made = self.assembler
-        counts = [0, *(len(symbol.rules) for symbol in self.symbols)]
+        made, births = self.assembler, self.births
+        symbols: list[tuple[int, ...]] = []
+        begin = 0
+        for code, symbol in enumerate(self.symbols):
+            end = begin + len(symbol.rules)
+            ignored, plain = self.ignored.get(code, False), len(symbol.rules) == 1 and symbol.rules[0].plain
+            symbols.append((begin, end, symbol.end, symbol.growth, symbol.calls, symbol.again, ignored, plain))
+            begin = end
+        words = [births[rule.births[0] : rule.births[1]] for rule in rules]
         return Tables(
-            ops=_ints(made.ops),
+            ops=_ints(made.ops, 1),
             args=np.array(made.args, dtype=np.float64),
-            spans=_ints(made.spans).reshape(-1, 2),
+            spans=_ints(made.spans, 2),
             known=np.array(made.known, dtype=np.float64),
+            symbols=_ints(symbols, 8),
+            rules=_ints([(*rule[:4], *rule.births) for rule in rules], 6),
+            births=_ints([(birth.code, *birth.arguments, birth.age) for birth in births], 4),
             room=made.room,
-            productions=np.cumsum(_ints(counts)),
-            conditions=_ints([rule.condition for rule in rules]),
-            chances=_ints([rule.chance for rule in rules]),
-            lefts=_ints([rule.left for rule in rules]),
-            rights=_ints([rule.right for rule in rules]),
-            births=_ints([rule.births for rule in rules]).reshape(-1, 2),
-            codes=_ints([birth.code for birth in self.births]),
-            arguments=_ints([birth.arguments for birth in self.births]).reshape(-1, 2),
-            ages=_ints([birth.age for birth in self.births]),
-            ends=_ints([symbol.end for symbol in self.symbols]),
-            growths=_ints([symbol.growth for symbol in self.symbols]),
-            calls=np.array([symbol.calls for symbol in self.symbols], dtype=np.bool_),
-            again=np.array([symbol.again for symbol in self.symbols], dtype=np.bool_),
-            ignored=np.array([self.ignored.get(code, False) for code in range(len(self.symbols))], dtype=np.bool_),
+            most_births=max(map(len, words)),
+            most_values=max(sum(last - first for _, (first, last), _ in word) for word in words),
         )
 
 
-def _ints(values: object) -> np.ndarray[tuple[int, ...], np.dtype[np.int64]]:
-    return np.array(values, dtype=np.int64)
+def _ints(values: object, columns: int) -> Ints:
+    found = np.array(values, dtype=np.int64)
+    return found if columns == 1 else found.reshape(-1, columns)
 
 
 def _numbered(names: tuple[str, ...]) -> Mapping[str, int]:

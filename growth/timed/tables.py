@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
-Keys = NDArray[np.uint64]
-Flags = NDArray[np.bool_]
 
 PUSH: Final = 0
 LOAD: Final = 1
@@ -85,6 +83,8 @@ NEGATIVE_AGE: Final = 9
 NO_CHANCE: Final = 10
 EVENTS: Final = 11
 MODULES: Final = 12
+FULL: Final = 13
+CHILD: Final = 14
 TROUBLES: Final[Mapping[int, str]] = {
     DIVISION: "division by zero",
     ROOT_DOMAIN: "domain error: a root of a negative number",
@@ -105,8 +105,68 @@ IN_PARAMETER: Final = 2
 IN_BIRTH_AGE: Final = 3
 IN_END: Final = 4
 IN_DEVELOPMENT: Final = 5
-ROLES: Final = ("a condition", "a chance", "a parameter", "the birth age", "the terminal age", "the development function")
+ROLES: Final = (
+    "a condition",
+    "a chance",
+    "a parameter",
+    "the birth age",
+    "the terminal age",
+    "the development function",
+)
 """What the expression was for."""
+
+
+CODE: Final = 0
+ASKS: Final = 1
+KEY: Final = 2
+START: Final = 3
+STOP: Final = 4
+COLUMNS: Final = 5
+"""Columns of modules: the code, how often productions were asked in vain, the lineage, where the parameters stand."""
+
+FIRST_CHILD: Final = 5
+NEXT_CHILD: Final = 6
+LAST_CHILD: Final = 7
+PILE_COLUMNS: Final = 8
+"""Further columns of modules that are being rewritten: where their births begin, go on and end."""
+
+ORIGIN: Final = 0
+DIES: Final = 1
+"""Columns of the times of modules."""
+
+FIRST_RULE: Final = 0
+LAST_RULE: Final = 1
+END: Final = 2
+GROWTH: Final = 3
+CALLS: Final = 4
+AGAIN: Final = 5
+IGNORED: Final = 6
+PLAIN: Final = 7
+"""Columns of symbols."""
+
+CONDITION: Final = 0
+CHANCE: Final = 1
+LEFT: Final = 2
+RIGHT: Final = 3
+FIRST_BIRTH: Final = 4
+LAST_BIRTH: Final = 5
+"""Columns of productions."""
+
+BORN: Final = 0
+FIRST_ARGUMENT: Final = 1
+LAST_ARGUMENT: Final = 2
+BIRTH_AGE: Final = 3
+"""Columns of births."""
+
+
+AT: Final = 0
+HEIGHT: Final = 1
+COUNT: Final = 2
+HELD: Final = 3
+TALLY: Final = 4
+ROLE: Final = 5
+MARKS: Final = 6
+"""How far a rewriting is: modules of the word, on the pile, put, their parameters, events; of what trouble is."""
 
 
 class Tables(NamedTuple):
@@ -120,76 +180,50 @@ class Tables(NamedTuple):
         (e, 2) int64, where each expression begins and ends.
     known
         (e,) float64, the values of those that are constant; NaN of the others.
+    symbols
+        (s, 8) int64. Of each code where its productions begin and end; its terminal age, an expression of its
+        parameters, NONE where it never dies; its development function or NONE, with the slots age, terminal age,
+        parameters; whether it stands for a system, and so dies at the instant at which its age was 0; whether it may
+        match later though nothing matched before, since contexts or chance decide; whether it is no context; whether
+        it has one production that asks for nothing.
+    rules
+        (p, 6) int64. Of each production condition and chance, expressions or NONE, with the slots parameters of the
+        predecessor, the left and the right; the codes of left and right, or NONE; where its births begin and end.
+    births
+        (b, 4) int64. Of each birth its code, where the expressions of its parameters begin and end, its birth age.
     room
         Slots and stack places that an evaluation needs at most.
-    productions
-        (s + 1,) int64, where the productions of each code begin.
-    conditions, chances
-        (p,) int64, expressions or NONE. Slots: parameters of predecessor, left and right, in this order.
-    lefts, rights
-        (p,) int64, codes of contexts or NONE.
-    births
-        (p, 2) int64, where each production's births begin and end.
-    codes, arguments, ages
-        (b,), (b, 2) and (b,) int64, code, range of expressions and birth age of each birth.
-    ends
-        (s,) int64, the terminal age of each code, an expression of its parameters; NONE of those that never die.
-    growths
-        (s,) int64, the development function or NONE. Slots: age, terminal age, parameters.
-    calls
-        (s,) bool, the codes that stand for a system: they die at the instant at which their age was 0.
-    again
-        (s,) bool, the codes that may match later though nothing matched before: contexts or chance decide.
-    ignored
-        (s,) bool, the codes that are no contexts.
+    most_births, most_values
+        The most modules, and parameters, of a successor.
     """
 
     ops: Ints
     args: Floats
     spans: Ints
     known: Floats
-    room: int
-    productions: Ints
-    conditions: Ints
-    chances: Ints
-    lefts: Ints
-    rights: Ints
+    symbols: Ints
+    rules: Ints
     births: Ints
-    codes: Ints
-    arguments: Ints
-    ages: Ints
-    ends: Ints
-    growths: Ints
-    calls: Flags
-    again: Flags
-    ignored: Flags
+    room: int
+    most_births: int
+    most_values: int
 
 
 class Modules(NamedTuple):
-    """Modules in a row; m of them with v parameters in all. The arrays may be longer than that while they fill.
+    """Modules in a row; m of them with v parameters in all.
 
     Attributes
     ----------
-    codes
-        (m,) int64.
-    starts
-        (m + 1,) int64, where the parameters of each begin.
+    whole
+        (m, 5) int64: codes; how often their productions have been asked in vain; their lineage, of which what they draw
+        at random is a function; where their parameters begin and end.
+    reals
+        (m, 2) float64: the instants at which their ages were 0, before time 0 where a birth age has it so; and those at
+        which their productions are asked next, infinite where never.
     values
         (v,) float64, the parameters, not developed.
-    origins
-        (m,) float64, the instants at which their ages were 0; before time 0 where a birth age has it so.
-    dies
-        (m,) float64, the instants at which their productions are asked next; infinite where never.
-    keys
-        (m,) uint64, their lineage: what they draw at random is a function of it.
-    asks
-        (m,) int64, how often their productions have been asked in vain.
     """
 
-    codes: Ints
-    starts: Ints
+    whole: Ints
+    reals: Floats
     values: Floats
-    origins: Floats
-    dies: Floats
-    keys: Keys
-    asks: Ints

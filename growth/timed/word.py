@@ -1,4 +1,4 @@
-"""The phenotype of a timed system at one time: a word of modules, their parameters as development functions have them."""
+"""The phenotype of a timed system at one time: a word of modules, their parameters developed."""
 
 from __future__ import annotations
 
