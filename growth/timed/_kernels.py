@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+# isort: off
 from growth.timed.tables import (
     ABS, ADD, AGAIN, ARC_DOMAIN, ASIN, ASKS, AT, ATAN, BESSEL_DOMAIN, BIRTH_AGE, BORN, CALLS, CHANCE, CHILD,
     CLOSE_CODE, CODE, COLUMNS, CONDITION, COS, COUNT, DIES, DIV, DIVISION, END, EQ, EVENTS, EXP, FIRST_ARGUMENT,
@@ -21,9 +22,14 @@ from growth.timed.tables import (
     IN_CHANCE, IN_CONDITION, IN_END, IN_PARAMETER, Ints, JUMP, JUMP_IF_NOT, KEY, LAST_ARGUMENT, LAST_BIRTH,
     LAST_CHILD, LAST_RULE, LE, LEFT, LOAD, LOG, LOG_DOMAIN, LT, MARKS, MAX, MIN, MOD, MODULES, MUL, Modules, NE, NEG,
     NEGATIVE_AGE, NEXT_CHILD, NONE, NOT, NOT_FINITE, NO_CHANCE, OPEN_CODE, ORIGIN, PILE_COLUMNS, PLAIN, POW,
-    POWER_DOMAIN, PUSH, RANDOM, RIGHT, ROLE, ROOT, ROOT_DOMAIN, SIGN, SIN, SPREAD, SQRT, START, STOP, STORE, SUB,
-    TALLY, TAN, TRUTH, Tables,
+    POWER_DOMAIN, PUSH, RANDOM, RIGHT, ROLE, ROOT, ROOT_DOMAIN, SETTLED, SIGN, SIN, SPREAD, SQRT, START, STOP, STORE,
+    SUB, TALLY, TAN, TRUTH, Tables,
 )  # fmt: skip
+# isort: on  # fmt: skip
+
+_OPTIONS: Final[Any] = {"cache": True, "error_model": "numpy", "_nrt": False}
+_lent: Final = njit(**_OPTIONS)
+"""For what makes no arrays: to count references to those that it is given takes longer than all else it does."""
 
 _GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
 _FIRST: Final = np.uint64(0xBF58476D1CE4E5B9)
@@ -184,7 +190,7 @@ def drawn(op: int, x: float, y: float, key: np.uint64, site: int) -> tuple[float
     return x + y * radius * math.cos(2.0 * math.pi * uniform(key, 2 * site + 1)), 0
 
 
-@njit(cache=True)
+@_lent
 def evaluated(ops: Ints, args: Floats, spans: Ints, expression: int, slots: Floats, key: np.uint64,
               stack: Floats) -> tuple[float, int]:  # fmt: skip
     """Evaluate an expression.
@@ -239,7 +245,7 @@ def evaluated(ops: Ints, args: Floats, spans: Ints, expression: int, slots: Floa
     return stack[top], 0
 
 
-@njit(cache=True)
+@_lent
 def lasted(ops: Ints, args: Floats, spans: Ints, known: Floats, end: int, given: Floats, key: np.uint64,
            slots: Floats, stack: Floats) -> tuple[float, int]:  # fmt: skip
     """Give the terminal age of a module, infinite where it never dies, and what is wrong with it.
@@ -259,14 +265,15 @@ def lasted(ops: Ints, args: Floats, spans: Ints, known: Floats, end: int, given:
         return math.inf, 0
     value = known[end]
     if value != value:
-        slots[: given.size] = given
+        for place in range(given.size):
+            slots[place] = given[place]
         value, trouble = evaluated(ops, args, spans, end, slots, branched(key, _BIRTH), stack)
         if trouble:
             return 0.0, trouble
     return (value, 0) if value >= 0.0 else (0.0, NEGATIVE_AGE)
 
 
-@njit(cache=True)
+@_lent
 def joined(wanted: int, other: int, whole: Ints, values: Floats, slots: Floats, filled: int) -> int:
     """Put the parameters of a context behind those before it; give how many there are, NONE where it does not fit."""
     if wanted == NONE:
@@ -279,9 +286,10 @@ def joined(wanted: int, other: int, whole: Ints, values: Floats, slots: Floats, 
     return filled
 
 
-@njit(cache=True)
+@_lent
 def chosen(ops: Ints, args: Floats, spans: Ints, rules: Ints, first: int, last: int, left: int, right: int, count: int,
-           whole: Ints, values: Floats, moment: np.uint64, slots: Floats, stack: Floats) -> tuple[int, int, int]:  # fmt: skip
+           whole: Ints, values: Floats, moment: np.uint64, slots: Floats,
+           stack: Floats) -> tuple[int, int, int]:  # fmt: skip
     """Choose a production of a module, whose parameters the slots hold; NONE where none matches.
 
     Productions are asked in their order. Of those that match, each with a chance takes its part of one random number;
@@ -339,31 +347,114 @@ def chosen(ops: Ints, args: Floats, spans: Ints, rules: Ints, first: int, last: 
 
 @njit(cache=True)
 def longer(rows: NDArray[Any]) -> NDArray[Any]:
-    """Give the same rows with room for twice as many."""
-    more = np.empty((2 * rows.shape[0], rows.shape[1]), dtype=rows.dtype)
+    """Give the same rows with room for four times as many."""
+    more = np.empty((4 * rows.shape[0], rows.shape[1]), dtype=rows.dtype)
     more[: rows.shape[0]] = rows
     return more
 
 
 @njit(cache=True)
 def extended(values: Floats) -> Floats:
-    """Give the same values with room for twice as many."""
-    more = np.empty(2 * values.size, dtype=np.float64)
+    """Give the same values with room for four times as many."""
+    more = np.empty(4 * values.size, dtype=np.float64)
     more[: values.size] = values
     return more
 
 
-@njit(cache=True)
-def put(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, births: Ints, top: int, pile: Ints,
-        times: Floats, pairs: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints, limit: float, room: int,
+@_lent
+def settled(known: Floats, loads: Ints, symbols: Ints, births: Ints, first: int, birth: int, last: int, instant: float,
+            moment: np.uint64, limit: float, slots: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints,
+            room: int) -> int:  # fmt: skip
+    """Put children behind the others as long as nothing has to be computed for them; give the first that is left.
+
+    That is a child with an expression that is neither constant nor a parameter, one that dies up to the limit, or one
+    for which there is no room. Parameters as of :func:`put`.
+    """
+    count, held = marks[COUNT], marks[HELD]
+    while birth < last and births[birth, SETTLED] and count < whole.shape[0] and held + room <= values.size:
+        code, age = births[birth, BORN], known[births[birth, BIRTH_AGE]]
+        end = symbols[code, END]
+        origin = instant - age
+        dies = math.inf if end == NONE else max(instant, origin + known[end])
+        if dies <= limit:
+            break
+        whole[count, CODE], whole[count, ASKS], whole[count, START] = code, 0, held
+        whole[count, KEY] = np.int64(branched(moment, _LIFE + birth - first))
+        reals[count, ORIGIN], reals[count, DIES] = origin, dies
+        for expression in range(births[birth, FIRST_ARGUMENT], births[birth, LAST_ARGUMENT]):
+            load = loads[expression]
+            values[held] = known[expression] if load == NONE else slots[load]
+            held += 1
+        whole[count, STOP] = held
+        count, birth = count + 1, birth + 1
+    marks[COUNT], marks[HELD] = count, held
+    return birth
+
+
+@_lent
+def born(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, births: Ints, birth: int, key: np.uint64,
+         instant: float, moment: np.uint64, whole: Ints, reals: Floats, values: Floats, marks: Ints, slots: Floats,
+         own: Floats, stack: Floats) -> int:  # fmt: skip
+    """Put a child behind the others without counting it.
+
+    Parameters
+    ----------
+    ops, args, spans, known, symbols, births, birth
+        As of :class:`~growth.timed.tables.Tables`, and which birth.
+    key
+        The child's.
+    instant, moment
+        When it is born, and its parent's key then.
+    whole, reals, values, marks
+        As of :func:`put`.
+    slots
+        (room,) the parameters of the parent, and of its contexts.
+    own, stack
+        (room,) written.
+
+    Returns
+    -------
+    trouble
+        0, or what is wrong, and the marks with what.
+    """
+    code, count, held = births[birth, BORN], marks[COUNT], marks[HELD]
+    whole[count, CODE], whole[count, ASKS], whole[count, KEY] = code, 0, np.int64(key)
+    whole[count, START] = whole[count, STOP] = held
+    reals[count, ORIGIN] = reals[count, DIES] = instant
+    stop = held
+    marks[ROLE] = IN_PARAMETER
+    for expression in range(births[birth, FIRST_ARGUMENT], births[birth, LAST_ARGUMENT]):
+        value, trouble = evaluated(ops, args, spans, expression, slots, moment, stack)
+        if trouble or abs(value) == math.inf:
+            return trouble or NOT_FINITE
+        values[stop] = value
+        stop += 1
+    whole[count, STOP] = stop
+    marks[ROLE] = IN_BIRTH_AGE
+    age, trouble = evaluated(ops, args, spans, births[birth, BIRTH_AGE], slots, moment, stack)
+    if trouble or not 0.0 <= age < math.inf:
+        return trouble or (NEGATIVE_AGE if age < 0.0 else NOT_FINITE)
+    marks[ROLE] = IN_END
+    reals[count, ORIGIN] = reals[count, DIES] = instant - age
+    if not symbols[code, CALLS]:
+        lifetime, trouble = lasted(ops, args, spans, known, symbols[code, END], values[held:stop], key, own, stack)
+        if trouble:
+            return trouble
+        reals[count, DIES] = max(instant, instant - age + lifetime)
+    return 0
+
+
+@_lent
+def put(ops: Ints, args: Floats, spans: Ints, known: Floats, loads: Ints, symbols: Ints, births: Ints, top: int,
+        pile: Ints, times: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints, limit: float, room: int,
         slots: Floats, own: Floats, stack: Floats) -> int:  # fmt: skip
     """Put the children of the module on top of a pile behind the others, from left to right.
 
     Parameters
     ----------
-    ops, args, spans, known, symbols, births
+    ops, args, spans, known, loads, symbols, births
         As of :class:`~growth.timed.tables.Tables`.
-    top, pile, times, pairs
+    top, pile, times
         The pile; its top has decided what becomes of it, and how far that is done.
     whole, reals, values
         The modules that stay.
@@ -381,58 +472,37 @@ def put(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, birt
     Returns
     -------
     trouble
-        0 when all children stand there, CHILD when one is on the pile now, FULL when there is no room. Else what is
-        wrong: with the child that stands behind the others then, and with what of it the marks say.
+        0 when all children stand there, CHILD when one is to go on the pile, FULL when there is no room. Else what is
+        wrong with a child, and the marks with what of it. Such a child stands behind the others, not counted.
     """
-    count, held, instant = marks[COUNT], marks[HELD], times[top, DIES]
+    instant, first, last = times[top, DIES], pile[top, FIRST_CHILD], pile[top, LAST_CHILD]
     moment = branched(np.uint64(pile[top, KEY]), pile[top, ASKS])
-    last = pile[top, LAST_CHILD]
-    for birth in range(pile[top, NEXT_CHILD], last):
-        pile[top, NEXT_CHILD], marks[COUNT], marks[HELD] = birth, count, held
-        if count == whole.shape[0] or held + room > values.size:
+    birth = pile[top, NEXT_CHILD]
+    while True:
+        birth = settled(known, loads, symbols, births, first, birth, last, instant, moment, limit, slots, whole, reals,
+                        values, marks, room)  # fmt: skip
+        pile[top, NEXT_CHILD] = birth
+        if birth == last:
+            return 0
+        if marks[COUNT] == whole.shape[0] or marks[HELD] + room > values.size:
             return FULL
-        code, stop = births[birth, BORN], held
-        key = branched(moment, _LIFE + birth - pile[top, FIRST_CHILD])
-        whole[count, CODE], whole[count, ASKS], whole[count, KEY] = code, 0, np.int64(key)
-        whole[count, START] = whole[count, STOP] = held
-        reals[count, ORIGIN] = reals[count, DIES] = instant
-        for expression in range(births[birth, FIRST_ARGUMENT], births[birth, LAST_ARGUMENT]):
-            value = known[expression]
-            if not abs(value) < math.inf:
-                value, trouble = evaluated(ops, args, spans, expression, slots, moment, stack)
-                if trouble or abs(value) == math.inf:
-                    marks[ROLE] = IN_PARAMETER
-                    return trouble or NOT_FINITE
-            values[stop] = value
-            stop += 1
-        whole[count, STOP] = stop
-        age = known[births[birth, BIRTH_AGE]]
-        if not 0.0 <= age < math.inf:
-            age, trouble = evaluated(ops, args, spans, births[birth, BIRTH_AGE], slots, moment, stack)
-            if trouble or not 0.0 <= age < math.inf:
-                marks[ROLE] = IN_BIRTH_AGE
-                return trouble or (NEGATIVE_AGE if age < 0.0 else NOT_FINITE)
-        end = symbols[code, END]
-        lifetime = math.inf if end == NONE else known[end]
-        if not lifetime >= 0.0:
-            lifetime, trouble = lasted(ops, args, spans, known, end, values[held:stop], key, own, stack)
-            if trouble:
-                marks[ROLE] = IN_END
-                return trouble
-        dies = instant - age if symbols[code, CALLS] else max(instant, instant - age + lifetime)
-        reals[count, ORIGIN], reals[count, DIES] = instant - age, dies
-        if dies <= limit:
-            pile[top, NEXT_CHILD] = birth + 1
+        key = branched(moment, _LIFE + birth - first)
+        trouble = born(ops, args, spans, known, symbols, births, birth, key, instant, moment, whole, reals, values,
+                       marks, slots, own, stack)  # fmt: skip
+        if trouble:
+            return trouble
+        birth += 1
+        pile[top, NEXT_CHILD] = birth
+        if reals[marks[COUNT], DIES] <= limit:
             return CHILD
-        count, held = count + 1, stop
-    marks[COUNT], marks[HELD] = count, held
-    return 0
+        marks[HELD] = whole[marks[COUNT], STOP]
+        marks[COUNT] += 1
 
 
-@njit(cache=True)
+@_lent
 def decided(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rules: Ints, sides: Ints, at: int,
-            given: Ints, numbers: Floats, top: int, pile: Ints, times: Floats, pairs: Floats, marks: Ints,
-            slots: Floats, own: Floats, stack: Floats) -> int:  # fmt: skip
+            given: Ints, numbers: Floats, top: int, pile: Ints, times: Floats, marks: Ints, slots: Floats, own: Floats,
+            stack: Floats) -> int:  # fmt: skip
     """Decide what becomes of the module on top of a pile, which dies now, and whose parameters the slots hold.
 
     Parameters
@@ -441,7 +511,7 @@ def decided(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, 
         As of :class:`~growth.timed.tables.Tables`.
     sides, at, given, numbers
         The contexts of the word's modules, which of them this is or comes from, and the word.
-    top, pile, times, pairs
+    top, pile, times
         The pile.
     marks
         Events are counted here.
@@ -474,14 +544,14 @@ def decided(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, 
         return 0
     span = math.inf
     if symbols[code, AGAIN]:
-        span, _ = lasted(ops, args, spans, known, symbols[code, END], pairs[start:stop], key, own, stack)
+        span, _ = lasted(ops, args, spans, known, symbols[code, END], slots[: stop - start], key, own, stack)
     # Without time passing nothing would ever be otherwise.
     times[top, DIES] = times[top, DIES] + span if span > 0.0 else math.inf
     pile[top, ASKS] += 1
     return 0
 
 
-@njit(cache=True)
+@_lent
 def moved(source: Ints, lives: Floats, numbers: Floats, at: int, target: Ints, times: Floats, values: Floats, row: int,
           held: int) -> int:  # fmt: skip
     """Write a module into a row of others, its parameters from a place on; give the place behind them."""
@@ -495,7 +565,7 @@ def moved(source: Ints, lives: Floats, numbers: Floats, at: int, target: Ints, t
     return stop
 
 
-@njit(cache=True)
+@_lent
 def kept(given: Ints, lives: Floats, numbers: Floats, whole: Ints, reals: Floats, values: Floats, marks: Ints,
          limit: float, room: int) -> int:  # fmt: skip
     """Copy modules of a word behind the others, up to the next that dies; tell whether there was no room for all."""
@@ -518,11 +588,11 @@ def kept(given: Ints, lives: Floats, numbers: Floats, whole: Ints, reals: Floats
     return FULL if full else 0
 
 
-@njit(cache=True)
-def run(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rules: Ints, births: Ints, given: Ints,
-        lives: Floats, numbers: Floats, sides: Ints, whole: Ints, reals: Floats, values: Floats, pile: Ints,
-        times: Floats, pairs: Floats, marks: Ints, limit: float, deep: bool, most: int, room: int, slots: Floats,
-        own: Floats, stack: Floats) -> int:  # fmt: skip
+@_lent
+def run(ops: Ints, args: Floats, spans: Ints, known: Floats, loads: Ints, symbols: Ints, rules: Ints, births: Ints,
+        given: Ints, lives: Floats, numbers: Floats, sides: Ints, whole: Ints, reals: Floats, values: Floats,
+        pile: Ints, times: Floats, pairs: Floats, marks: Ints, limit: float, deep: bool, most: int, room: int,
+        slots: Floats, own: Floats, stack: Floats) -> int:  # fmt: skip
     """Rewrite as far as there is room; parameters as of :func:`put`, :func:`decided` and :func:`advanced`.
 
     The pile holds a module that dies, above it the child that dies with which its successor has been left, and so on.
@@ -549,7 +619,7 @@ def run(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rule
             if marks[COUNT] == whole.shape[0] or marks[HELD] + room > values.size:
                 return FULL
             trouble = decided(ops, args, spans, known, symbols, rules, sides, marks[AT] - 1, given, numbers, top, pile,
-                              times, pairs, marks, slots, own, stack)  # fmt: skip
+                              times, marks, slots, own, stack)  # fmt: skip
             if trouble or marks[TALLY] > most:
                 return trouble or EVENTS
             if pile[top, NEXT_CHILD] == NONE:
@@ -559,7 +629,7 @@ def run(ops: Ints, args: Floats, spans: Ints, known: Floats, symbols: Ints, rule
                 continue
         if top + 2 > pile.shape[0] or pile[top, STOP] + room > pairs.size:
             return FULL
-        trouble = put(ops, args, spans, known, symbols, births, top, pile, times, pairs, whole, reals, values, marks,
+        trouble = put(ops, args, spans, known, loads, symbols, births, top, pile, times, whole, reals, values, marks,
                       limit if deep else -math.inf, room, slots, own, stack)  # fmt: skip
         if trouble == CHILD:
             moved(whole, reals, values, marks[COUNT], pile, times, pairs, top + 1, pile[top, STOP])
@@ -622,9 +692,9 @@ def advanced(tables: Tables, word: Modules, limit: float, deep: bool, sides: Int
     marks[TALLY] = events
     while True:
         trouble = run(
-            tables.ops, tables.args, tables.spans, tables.known, tables.symbols, tables.rules, tables.births, word.whole,
-            word.reals, word.values, sides, whole, reals, values, pile, times, pairs, marks, limit, deep, most_events,
-            room, slots, own, stack,
+            tables.ops, tables.args, tables.spans, tables.known, tables.loads, tables.symbols, tables.rules,
+            tables.births, word.whole, word.reals, word.values, sides, whole, reals, values, pile, times, pairs, marks,
+            limit, deep, most_events, room, slots, own, stack,
         )  # fmt: skip
         count = marks[COUNT]
         if trouble != FULL or (deep and count > most_modules):

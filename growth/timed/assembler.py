@@ -19,6 +19,7 @@ from growth.timed.tables import (
     JUMP,
     JUMP_IF_NOT,
     LOAD,
+    NONE,
     PUSH,
     STORE,
     TRUTH,
@@ -69,6 +70,7 @@ class Assembler:
         self.args: list[float] = []
         self.spans: list[tuple[int, int]] = []
         self.known: list[float] = []
+        self.loads: list[int] = []
         self.sites = 0
         self.room = width + 1
         self._numbers: dict[float, int] = {}
@@ -105,7 +107,9 @@ class Assembler:
         """Evaluate an expression that asks for no slot; give its value, and what is wrong with it."""
         spans = np.array([self.spans[number]], dtype=np.int64)
         ops, args = np.array(self.ops, dtype=np.int64), np.array(self.args, dtype=np.float64)
-        return _kernels.evaluated(ops, args, spans, 0, np.empty(self.room), np.uint64(0), np.empty(self.room))
+        slots, stack = np.empty(self.room), np.empty(self.room)
+        value, trouble = _kernels.evaluated(ops, args, spans, 0, slots, np.uint64(0), stack)
+        return float(value), int(trouble)
 
     def _put(self, expression: Expression, meanings: Meanings, place: Place | None) -> int:
         begin = len(self.ops)
@@ -117,6 +121,7 @@ class Assembler:
             value, trouble = (self.args[-1], 0) if self.ops[begin:] == [PUSH] else self.value(number)
             value = math.nan if trouble else value  # told of when it is evaluated, with module and time
         self.known.append(value)
+        self.loads.append(int(self.args[-1]) if self.ops[begin:] == [LOAD] else NONE)
         return number
 
     def _emit(self, expression: Expression, meanings: Meanings, place: Place | None, depth: int) -> None:

@@ -209,13 +209,21 @@ class _Compiler:
             args=np.array(made.args, dtype=np.float64),
             spans=_ints(made.spans, 2),
             known=np.array(made.known, dtype=np.float64),
+            loads=_ints(made.loads, 1),
             symbols=_ints(symbols, 8),
             rules=_ints([(*rule[:4], *rule.births) for rule in rules], 6),
-            births=_ints([(birth.code, *birth.arguments, birth.age) for birth in births], 4),
+            births=_ints([(birth.code, *birth.arguments, birth.age, self._settled(birth)) for birth in births], 5),
             room=made.room,
             most_births=max(map(len, words)),
             most_values=max(sum(last - first for _, (first, last), _ in word) for word in words),
         )
+
+    def _settled(self, birth: _Born) -> bool:
+        """Whether nothing of a birth has to be computed when it happens, and nothing of it can be wrong."""
+        known, symbol = self.assembler.known, self.symbols[birth.code]
+        given = all(math.isfinite(known[one]) or self.assembler.loads[one] != NONE for one in range(*birth.arguments))
+        aged = 0.0 <= known[birth.age] < math.inf
+        return given and aged and not symbol.calls and (symbol.end == NONE or known[symbol.end] >= 0.0)
 
 
 def _ints(values: object, columns: int) -> Ints:

@@ -156,6 +156,7 @@ BORN: Final = 0
 FIRST_ARGUMENT: Final = 1
 LAST_ARGUMENT: Final = 2
 BIRTH_AGE: Final = 3
+SETTLED: Final = 4
 """Columns of births."""
 
 
@@ -180,6 +181,8 @@ class Tables(NamedTuple):
         (e, 2) int64, where each expression begins and ends.
     known
         (e,) float64, the values of those that are constant; NaN of the others.
+    loads
+        (e,) int64, the slots of those that are a parameter and nothing else; NONE of the others.
     symbols
         (s, 8) int64. Of each code where its productions begin and end; its terminal age, an expression of its
         parameters, NONE where it never dies; its development function or NONE, with the slots age, terminal age,
@@ -190,7 +193,8 @@ class Tables(NamedTuple):
         (p, 6) int64. Of each production condition and chance, expressions or NONE, with the slots parameters of the
         predecessor, the left and the right; the codes of left and right, or NONE; where its births begin and end.
     births
-        (b, 4) int64. Of each birth its code, where the expressions of its parameters begin and end, its birth age.
+        (b, 5) int64. Of each birth its code, where the expressions of its parameters begin and end, its birth age, and
+        whether it can be put without computing: parameters that are constants or parameters, constant ages.
     room
         Slots and stack places that an evaluation needs at most.
     most_births, most_values
@@ -201,6 +205,7 @@ class Tables(NamedTuple):
     args: Floats
     spans: Ints
     known: Floats
+    loads: Ints
     symbols: Ints
     rules: Ints
     births: Ints
