@@ -8,6 +8,7 @@ import sys
 NAMES = (
     "growth",
     "blocks_growth",
+    "timed_rewriting",
     "symbiosis_measures",
     "space_syntax",
     "bnf_mapping",

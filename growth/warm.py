@@ -11,6 +11,7 @@ from genome.genr8 import Genr8Genome
 from growth.blocks.warm import compile_kernels as compile_blocks
 from growth.environment.warm import compile_kernels as compile_environment
 from growth.hemls.warm import compile_kernels as compile_hemls
+from growth.timed.warm import compile_kernels as compile_timed
 
 
 def compile_surfaces() -> None:
@@ -24,6 +25,7 @@ def compile_kernels() -> None:
     """Compile the kernels of all engines."""
     compile_surfaces()
     compile_blocks()
+    compile_timed()
 
 
 if __name__ == "__main__":

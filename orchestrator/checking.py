@@ -9,7 +9,7 @@ from typing import Final
 from genome.errors import InputError
 from genome.yaml import load_yaml
 
-LATER: Final = (".tl", ".plan")
+LATER: Final = (".plan",)
 """Suffixes of files whose engines are not built yet."""
 
 ENVIRONMENT_KEYS: Final = frozenset({"gravity", "attractors", "repellers", "boundaries"})
@@ -19,7 +19,7 @@ def refuse_later(path: Path) -> None:
     """Refuse a file whose engine is not built yet, by its suffix."""
     for suffix in LATER:
         if path.name.endswith(suffix):
-            remedy = "this version grows .hemls, .blocks and .body.json files"
+            remedy = "this version grows .hemls, .blocks, .tl and .body.json files"
             raise InputError(str(path), "a file of a kind that is built", f"'{suffix}', which comes later", remedy)
 
 
@@ -47,8 +47,8 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     Parameters
     ----------
     path
-        An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``, ``.blocks``), a block
-        body (``.body.json``), or a grammar (``.bnf``).
+        An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``, ``.blocks``, ``.tl``), a
+        block body (``.body.json``), or a grammar (``.bnf``).
     overrides
         For an experiment, as ``--set`` takes them.
 
@@ -65,6 +65,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     checks: Mapping[str, Callable[[Path], str]] = {
         ".hemls": _rules,
         ".blocks": _blocks,
+        ".tl": _timed,
         ".body.json": _body,
         ".bnf": _grammar,
     }
@@ -82,7 +83,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    raise InputError(str(path), "a .yaml, .hemls, .blocks, .body.json or .bnf file", f"'{path.suffix or path.name}'")
+    raise InputError(str(path), "a .yaml, .hemls, .blocks, .tl, .body.json or .bnf file", f"'{path.suffix or path.name}'")
 
 
 def _is_environment(path: Path) -> bool:
@@ -103,6 +104,14 @@ def _blocks(path: Path) -> str:
     from genome.lsystem import parse_blocks
 
     parse_blocks(read_text(path, "a rule file"), str(path))
+    return "rules"
+
+
+def _timed(path: Path) -> str:
+    from genome.timed import parse_tl
+    from growth.timed import compile_system
+
+    compile_system(parse_tl(read_text(path, "a rule file"), str(path)))
     return "rules"
 
 

@@ -29,6 +29,7 @@ class Request:
     seed: int | None
     output: Path | None
     forces: bool = False
+    word: bool = False
 
 
 Engine = Callable[[Request], "dict[str, Any] | str"]
@@ -68,6 +69,8 @@ def grow_surface(request: Request) -> dict[str, Any] | str:
         raise InputError("--time", "a timed system (.tl)", str(request.file), "use --steps")
     if request.forces:
         raise InputError("--forces", "a block body (.blocks, .body.json)", str(request.file))
+    if request.word:
+        raise InputError("--word", "a timed system (.tl)", str(request.file))
     settings = validated(SurfaceGrowth, _settings(request), "--set")
     check_output(request.output, FORMS)
     system = parse_system(read_text(request.file, "a rule file"), str(request.file))
@@ -133,11 +136,17 @@ def _blocks(request: Request) -> dict[str, Any] | str:
     return grow_blocks(request)
 
 
+def _timed(request: Request) -> dict[str, Any] | str:
+    from orchestrator.growing_timed import grow_timed
+
+    return grow_timed(request)
+
+
 def _body(request: Request) -> dict[str, Any] | str:
     from orchestrator.growing_blocks import measure_body
 
     return measure_body(request)
 
 
-ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface, ".blocks": _blocks, ".body.json": _body}
+ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface, ".blocks": _blocks, ".tl": _timed, ".body.json": _body}
 """The engines by the suffix of the files that they grow."""

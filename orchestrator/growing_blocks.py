@@ -76,6 +76,8 @@ def _settings(request: Request) -> tuple[BlockGrowth, LoadSettings]:
     if request.environment is not None:
         remedy = "block bodies have a ground: --set ground=fixed, or supports"
         raise InputError("--environment", "a form that grows in one (.hemls)", str(request.file), remedy)
+    if request.word:
+        raise InputError("--word", "a timed system (.tl)", str(request.file))
     check_output(request.output, FORMS)
     sections: tuple[dict[str, Any], dict[str, Any]] = {}, {}
     for text in request.overrides:

@@ -20,7 +20,7 @@ from genome.timed.expression import (
     parts,
     substituted,
 )
-from genome.timed.reading import COMMANDS
+from genome.timed.reading import COMMANDS, counted
 from genome.timed.scope import Scope
 from genome.timed.system import BRACKETS, CLOSE, OPEN, RESERVED, Birth, Development, Production, TimedSystem
 
@@ -90,7 +90,7 @@ class _Checks:
                 if one.symbol in seen:
                     raise self._error(one.at, f"one {what} of '{one.symbol}'", "a second", "remove one")
                 if one.symbol in BRACKETS:
-                    raise self._error(one.at, f"a {what} of a symbol other than a bracket", f"'{one.symbol}'")
+                    raise self._error(one.at, "a symbol other than a bracket", f"'{one.symbol}'")
                 seen.append(one.symbol)
         for equiv in self.system.equivs:
             if equiv.command in BRACKETS:
@@ -156,7 +156,7 @@ class _Checks:
     def _count(self, symbol: str, count: int, at: Place) -> None:
         wanted = self.scope.owner(symbol).arity(symbol)
         if wanted is not None and count != wanted:
-            expected = f"{wanted} parameter{'' if wanted == 1 else 's'} of '{symbol}'"
+            expected = counted(wanted, "parameter", f"'{symbol}'")
             raise self._error(at, expected, str(count), "a symbol has the same number of them everywhere")
 
     def _names(self, expression: Expression, formals: Sequence[str]) -> None:
@@ -172,7 +172,7 @@ class _Checks:
     def _call(self, call: Call) -> None:
         if call.function in FUNCTIONS:
             if len(call.arguments) != FUNCTIONS[call.function]:
-                expected = f"{FUNCTIONS[call.function]} arguments of {call.function}()"
+                expected = counted(FUNCTIONS[call.function], "argument", f"{call.function}()")
                 raise self._error(call.at, expected, str(len(call.arguments)))
             return
         symbol = call.function.removeprefix(DEVELOPMENT)
@@ -181,7 +181,8 @@ class _Checks:
             raise self._error(call.at, "a function, or the development function of a symbol that has one",
                               f"'{call.function}'")  # fmt: skip
         if len(call.arguments) != len(development.names):
-            expected = f"{len(development.names)} arguments of {call.function}({', '.join(development.names)})"
+            head = f"{call.function}({', '.join(development.names)})"
+            expected = counted(len(development.names), "argument", head)
             raise self._error(call.at, expected, str(len(call.arguments)))
 
     def _chances(self) -> None:

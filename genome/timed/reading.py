@@ -192,12 +192,17 @@ class Reader:
                 self.expect(",")
         if not of_symbol and len(arguments) != FUNCTIONS[function]:
             where = f"{self.source}:{token.at[0]}:{token.at[1]}"
-            raise InputError(where, f"{FUNCTIONS[function]} arguments of {function}()", str(len(arguments)))
+            raise InputError(where, counted(FUNCTIONS[function], "argument", f"{function}()"), str(len(arguments)))
         return Call(function, tuple(arguments), token.at), high + 1
 
     def _check_depth(self, depth: int, token: Token) -> None:
         if depth > MOST_NESTED:
             raise self.error(f"an expression nested at most {MOST_NESTED} deep", "name a part of it by #define", token)
+
+
+def counted(count: int, what: str, owner: str) -> str:
+    """Say how many of something there are of an owner."""
+    return f"{count} {what}{'' if count == 1 else 's'} of {owner}"
 
 
 def parse_expression(text: str, source: str = "expression") -> Expression:

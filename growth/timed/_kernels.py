@@ -25,7 +25,7 @@ from growth.timed.tables import (
     POWER_DOMAIN, PUSH, RANDOM, RIGHT, ROLE, ROOT, ROOT_DOMAIN, SETTLED, SIGN, SIN, SPREAD, SQRT, START, STOP, STORE,
     SUB, TALLY, TAN, TRUTH, Tables,
 )  # fmt: skip
-# isort: on  # fmt: skip
+# isort: on
 
 _OPTIONS: Final[Any] = {"cache": True, "error_model": "numpy", "_nrt": False}
 _lent: Final = njit(**_OPTIONS)

@@ -15,6 +15,7 @@ from orchestrator.commands._options import emit, example, json_option
         "atoll grow experiments/systems/square.hemls --steps 4 -o square.glb",
         "atoll grow experiments/systems/triangle.hemls --environment site.env.yaml --set scale=1.3 --json",
         "atoll grow experiments/systems/arch.blocks --set load.axial_strength=30 --forces -o arch.png",
+        "atoll grow experiments/systems/piston.tl --time 1.04 --word --json",
     ),
 )
 @click.argument("file", type=click.Path(path_type=Path))
@@ -24,6 +25,7 @@ from orchestrator.commands._options import emit, example, json_option
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="A setting of growth, such as scale.")
 @click.option("--seed", type=click.IntRange(min=0), help="For systems that draw at random, in place of their own.")
 @click.option("--forces", is_flag=True, help="For block bodies: what each joint carries; the form is coloured by it.")
+@click.option("--word", is_flag=True, help="For timed systems: the word, as symbols, parameters and ages.")
 @click.option("-o", "output", type=click.Path(path_type=Path, dir_okay=False),
               help="The form's file: .glb, .obj, .stl or .png; .ply for surfaces, .npz for block bodies.")  # fmt: skip
 @json_option
@@ -35,6 +37,7 @@ def command(
     overrides: tuple[str, ...],
     seed: int | None,
     forces: bool,
+    word: bool,
     output: Path | None,
     as_json: bool,
 ) -> None:
@@ -43,7 +46,7 @@ def command(
     from orchestrator.growing import Request, engine_for
 
     engine = engine_for(file)
-    grown = engine(Request(file, steps, until, environment, overrides, seed, output, forces))
+    grown = engine(Request(file, steps, until, environment, overrides, seed, output, forces, word))
     if isinstance(grown, str):
         raise Complaint(grown, 1)
     if as_json:
