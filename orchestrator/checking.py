@@ -83,7 +83,8 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    raise InputError(str(path), "a .yaml, .hemls, .blocks, .tl, .body.json or .bnf file", f"'{path.suffix or path.name}'")
+    expected = "a .yaml, .hemls, .blocks, .tl, .body.json or .bnf file"
+    raise InputError(str(path), expected, f"'{path.suffix or path.name}'")
 
 
 def _is_environment(path: Path) -> bool:

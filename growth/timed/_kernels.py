@@ -632,9 +632,12 @@ def run(ops: Ints, args: Floats, spans: Ints, known: Floats, loads: Ints, symbol
         trouble = put(ops, args, spans, known, loads, symbols, births, top, pile, times, whole, reals, values, marks,
                       limit if deep else -math.inf, room, slots, own, stack)  # fmt: skip
         if trouble == CHILD:
-            moved(whole, reals, values, marks[COUNT], pile, times, pairs, top + 1, pile[top, STOP])
-            pile[top + 1, NEXT_CHILD] = NONE
-            marks[HEIGHT] += 1
+            # The last child takes its parent's place, so that what goes round for long does not pile up.
+            ended = pile[top, NEXT_CHILD] == pile[top, LAST_CHILD]
+            row, start = (top, pile[top, START]) if ended else (top + 1, pile[top, STOP])
+            moved(whole, reals, values, marks[COUNT], pile, times, pairs, row, start)
+            pile[row, NEXT_CHILD] = NONE
+            marks[HEIGHT] = row + 1
         elif trouble:
             return trouble
         else:

@@ -303,6 +303,17 @@ def test_development_functions_name_their_module_and_the_time_asked_for() -> Non
     assert failure("axiom A(2)\ng A(x, age) = 1/(age - 3)", 3.0) == said
 
 
+def test_what_goes_round_for_long_is_derived_in_one_go() -> None:
+    text = "axiom A(0) F\nA(n) @ 0.5 -> B A(n + 1)\nB @ 0.25 ->\n"
+    assert word_of(text, 100_000.25) == [Module("A", (200_000.0,), 0.25), Module("F", (), 100_000.25)]
+
+
+def test_systems_that_stand_for_themselves_are_a_failure() -> None:
+    assert failure("axiom A\nsystem A\naxiom A A\nend", 1.0, max_events=5000).startswith("budget: ")
+    nested = "axiom A\nsystem A\naxiom B\nB @ 1 -> A C\nend"
+    assert symbols(nested, 3.5) == "BCCC"
+
+
 def test_growth_that_explodes_is_a_failure() -> None:
     said = failure("axiom F\nF -> F F", 1e9)
     assert said == "budget: more births and askings up to time 1e+09 than the 5000000 that max_events allows"
