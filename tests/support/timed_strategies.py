@@ -69,19 +69,19 @@ def systems(draw: st.DrawFn, contexts: bool = False, random: bool = False) -> Ti
         return Birth(symbol, tuple(value(names) for _ in arity[symbol]), Number(age))
 
     def word(names: tuple[str, ...], least: int) -> tuple[Birth, ...]:
-        births = [born(names) for _ in range(draw(st.integers(least, 2)))]
+        births = [born(names) for _ in range(draw(st.sampled_from((least, 1, 2, 2, 3))))]
         if births and draw(st.booleans()):
             births = [Birth("["), *births, Birth("]"), Birth("+", (Number(30.0),))]
         return tuple(births)
 
     productions = []
-    for symbol in draw(st.lists(st.sampled_from(SYMBOLS), min_size=1, max_size=5)):
+    for symbol in draw(st.lists(st.sampled_from(SYMBOLS), min_size=2, max_size=6)):
         left = right = None
         if contexts and draw(st.booleans()):
             left, right = (_context(draw, arity, letter) for letter in "pq")
         own = Formal(symbol, arity[symbol])
         names = own.parameters + sum((side.parameters for side in (left, right) if side), ())
-        condition = draw(st.none() | expressions(names, ("min",), SMALL, 3))
+        condition = draw(expressions(names, ("min",), SMALL, 3)) if draw(st.integers(0, 2)) == 0 else None
         chance = draw(st.none() | st.sampled_from((0.3, 0.5)).map(Number)) if random else None
         productions.append(Production(own, ends[symbol], word(names, 0), left, right, condition, chance))
     developments = []
