@@ -12,6 +12,7 @@ from timed_strategies import systems
 from genome.timed import Module, TimedSystem, parse_tl
 from growth.protocol import Failure
 from growth.timed import Derivation, TimedGrowth, Word, begin, derive
+from growth.timed.tables import KEY
 
 BUDGET = TimedGrowth(max_modules=3000, max_events=20_000)
 TIMES = st.lists(st.sampled_from((0.0, 0.3, 0.5, 1.0, 1.2, 1.5, 2.1, 3.0, 3.7)), min_size=2, max_size=4).map(sorted)
@@ -59,6 +60,8 @@ def compare(system: TimedSystem, seed: int, times: list[float]) -> None:
             return
         assert isinstance(found, Word), found
         assert [(m.symbol, list(m.parameters), m.age) for m in found.modules()] == expected
+        assert isinstance(derivation, Derivation)
+        assert derivation.state.whole[:, KEY].astype(np.uint64).tolist() == [cell.key for cell in reference.word]
 
 
 @settings(max_examples=100)
@@ -230,6 +233,9 @@ def test_contexts_look_past_branches_and_ignored_symbols() -> None:
     assert symbols(text, 1.0) == "B[+C[D]]-Y+E"
     root = "ignore +\naxiom B [ + A ] C\nB < A -> X\nA > C -> Y\n"
     assert symbols(root, 1.0) == "B[+X]C"
+    assert symbols("axiom A [ A ] C\nA > C -> Y\n", 1.0) == "Y[A]C"
+    assert symbols("axiom A [ C ] A [ A C ]\nA > C -> Y\n", 1.0) == "A[C]A[YC]"
+    assert symbols("axiom [ C ] A [ A ]\nC < A -> X\nA < A -> Y\n", 1.0) == "[C]A[Y]"
     values = "axiom B(2) A(3) C(4)\nB(p) < A(x) > C(q) : p < x -> A(p + 10*x + 100*q)\n"
     assert word_of(values, 1.0)[1].parameters == (432.0,)
 
