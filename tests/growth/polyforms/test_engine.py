@@ -25,7 +25,6 @@ from growth.polyforms import (
     redraw_assembly,
     redraw_room,
 )
-from growth.protocol import Failure
 
 ALL = pytest.mark.parametrize("tiling", TILINGS.values(), ids=TILINGS)
 Shape = frozenset[tuple[int, int, int]]
