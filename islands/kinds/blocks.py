@@ -27,9 +27,9 @@ from growth.blocks.body import Body
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.bodies import (
+    BODIES,
     BlockLoad,
     Cell,
-    Scoring,
     body_text,
     check_start,
     is_stable,
@@ -38,6 +38,7 @@ from islands.kinds.bodies import (
     read_body_text,
     structure_of,
 )
+from islands.kinds.measures import Scoring
 from islands.kinds.meshes import MESH, mesh_text
 from islands.kinds.pairs import PAIR, paired
 from islands.kinds.protocol import Facts, Keep
@@ -90,7 +91,7 @@ class BlocksBiology:
         self._genome: Final = genome
         self._growth: Final = growth
         self._clock: Final = clock
-        self._scoring: Final = Scoring(goals, PAIR, where, clock)
+        self._scoring: Final = Scoring(goals, BODIES, PAIR, where, clock)
         self.scoring: Final = self._scoring.key("blocks", growth.model_dump(mode="json"))
         self.seconds: Final = growth.max_seconds + GRACE
 
