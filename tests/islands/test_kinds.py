@@ -191,7 +191,9 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     install(tmp_path, monkeypatch, "atoll.kinds", **names)
     assert {resolve_kind(name, "here").name for name in ("words", "room", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
-    with pytest.raises(InputError, match="known now: bits, block_pair, blocks, enclosure, extra, room, route, space, surface, words"):
+    with pytest.raises(
+        InputError, match="known now: bits, block_pair, blocks, enclosure, extra, room, route, space, surface, words"
+    ):
         resolve_kind("house", "here")
 
 
