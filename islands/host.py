@@ -443,7 +443,7 @@ class Host:
             self._log.tell(island.spec.number, state.epoch, "form", detail)
 
         best = best_forms(island, state.deme, self._plan.best_forms)
-        return write_forms(island, best, folder, self._plan.run, failed)
+        return write_forms(island, state, best, folder, self._plan.run, failed)
 
 
 def _strangers(plan: HostPlan) -> Mapping[int, Sequence[tuple[str, IslandSpec]]]:

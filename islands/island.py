@@ -19,6 +19,7 @@ from growth.protocol import Clock
 from islands.algorithms.breeding import Birth, breed
 from islands.algorithms.scheme import SCHEMES
 from islands.biologies import Biologies
+from islands.context import Context
 from islands.figures import figures
 from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
@@ -152,6 +153,14 @@ class Island(Generic[G]):
                 best, stagnant = now, 0
         after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
         return self._ended(after, diversity, registrar, streams)
+
+    def context(self, state: State[G]) -> Context[G]:
+        """Give the context in which the members of a state are scored."""
+        usual = self._regimes.of(state.steered).contexts
+        if state.held == NOTHING:
+            return usual.alone
+        streams = EpochStreams(self._seed, self.spec.number, state.epoch)
+        return usual.of(state.held, streams, self._routes.live(self.spec.number, state.epoch - 1))
 
     # -- arriving ------------------------------------------------------------------------------------------------
 

@@ -61,6 +61,11 @@ class Sides(NamedTuple):
     pairing: Pairing
     key: str
 
+    @property
+    def foremost(self) -> tuple[Migrant, ...]:
+        """Give one partner of each channel: those of a member's first pairing, or where some are drawn the best."""
+        return tuple(side.partners[0] for side in self.sides)
+
 
 def sides_of(channels: Sequence[Channel], holdings: Holdings, streams: EpochStreams) -> Sides | None:
     """Give the partners that members are paired with in this epoch; ``None`` until each channel has shown someone.

@@ -10,8 +10,10 @@ from typing import Any
 
 from genome.errors import InputError
 from islands.biologies import Biologies
+from islands.forms import written
 from islands.individual import Evaluation, Scores
-from islands.kinds.protocol import Biology
+from islands.kinds.protocol import Accompanied, Biology
+from islands.migration.channel import Migrant
 from orchestrator.circumstances import Circumstances
 from orchestrator.folder import RunFolder
 from orchestrator.loading import load_experiment
@@ -115,13 +117,16 @@ class Nursery:
         return self._circumstances.score(logged.island, logged.epoch, logged.genotype, logged.partners)
 
     def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
-        """Write an individual's form as ISLAND-ID.SUFFIX."""
+        """Write an individual's form as ISLAND-ID.SUFFIX, among the partners that it was first scored with."""
         biology = self._circumstances.biology(logged.island, logged.epoch)
         stem = folder / f"{logged.island}-{logged.id}"
         facts: dict[str, str | float | bool] = {"run": self._run, "island": logged.island, "id": str(logged.id)}
         if logged.fitness is not None:
             facts["fitness"] = logged.fitness
-        return biology.write_forms(biology.decode(logged.genotype), stem, formats, facts)
+        partners: tuple[Migrant, ...] = ()
+        if isinstance(biology, Accompanied):
+            partners = self._circumstances.partners(logged.island, logged.epoch, logged.partners)
+        return written(biology, biology.decode(logged.genotype), partners, stem, formats, facts)
 
 
 def same(logged: Logged, found: Evaluation) -> bool:

@@ -72,6 +72,7 @@ def wire(experiment: Experiment, islands: Sequence[IslandSpec], source: str, bas
     _refuse_needy(wired, islands, fits)
     refuse_emptied(wired, islands)
     _refuse_unreached(wired, islands, source)
+    _refuse_unfed(wired, islands, fits)
     return wired
 
 
@@ -260,3 +261,43 @@ def _entered(one: Wired) -> set[int]:
     if one.redrawn is not None:
         return {number for number, _ in one.redrawn.members} if one.redrawn.weight > 0 else set()
     return {edge.target for edge in one.edges if edge.weight > 0}
+
+
+def unfed(
+    wired: Sequence[Wired], islands: Sequence[IslandSpec], among: Sequence[IslandSpec], fits: Compatibility
+) -> list[tuple[IslandSpec, ChannelKind, str]]:
+    """Give those among the islands to which something never comes that they need, the kind of channel, and its name."""
+    wanted = {(spec.number, kind): names for spec in among for kind, names in fits.needed(spec).items()}
+    if not wanted:
+        return []
+    come: dict[tuple[int, ChannelKind], set[str]] = defaultdict(set)
+    for one in wired:
+        kind = one.channel.kind
+        given = {number: fits.given(islands[number], kind) for number in _sources(one)}
+        for edge in one.edges:
+            if edge.weight > 0 and (edge.target, kind) in wanted:
+                come[edge.target, kind].add(given[edge.source])
+        if one.redrawn is not None and one.redrawn.weight > 0:
+            for number, _ in one.redrawn.members:  # in time each may show to each; nobody needs what it gives itself
+                come[number, kind] |= set(given.values())
+    return [
+        (spec, kind, name)
+        for spec in among
+        for kind, names in fits.needed(spec).items()
+        for name in names
+        if name not in come[spec.number, kind]
+    ]
+
+
+def _sources(one: Wired) -> dict[int, None]:
+    """Give the islands that a channel leads from."""
+    members = () if one.redrawn is None else one.redrawn.members
+    return dict.fromkeys([*(edge.source for edge in one.edges), *(number for number, _ in members)])
+
+
+def _refuse_unfed(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility) -> None:
+    """Refuse an island to which channels never bring something that its kind needs."""
+    for spec, kind, name in unfed(wired, islands, islands, fits):
+        expected = f"a channel of kind {kind} that brings {spec.name} what it needs, {name}"
+        remedy = f"add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels', from islands that give it"
+        raise InputError(spec.where("kind"), expected, "none", remedy)

@@ -15,8 +15,11 @@ from genome.errors import InputError
 from islands.individual import Evaluation
 from islands.kinds.block_pair import BlockPairKind
 from islands.kinds.blocks import BlocksKind
+from islands.kinds.enclosure import EnclosureKind
 from islands.kinds.protocol import Biology, Kind
 from islands.kinds.registry import KINDS, LATER, resolve_kind
+from islands.kinds.route import RouteKind
+from islands.kinds.space import SpaceKind
 from islands.kinds.surface import SurfaceKind
 
 SURFACE = {
@@ -26,11 +29,15 @@ SURFACE = {
     "fitness": {"size": {"goal": "target", "value": 6.0}, "undulation": {"goal": "maximise"}},
 }
 LOADED = {"growth": {"max_blocks": 80, "load": {"axial_strength": 90}}, "fitness": {"height": {"goal": "maximise"}}}
+CELLS = {"genome": {}, "growth": {"max_blocks": 80}, "fitness": {"evenness": {"goal": "maximise"}}}
 EVERY = [
     (BitsKind, {}),
     (SurfaceKind, SURFACE),
     (BlocksKind, {"kind": "blocks", "genome": {}, **LOADED}),
     (BlockPairKind, {"kind": "block_pair", "genome": {}, **LOADED}),
+    (EnclosureKind, {"kind": "enclosure", **CELLS}),
+    (RouteKind, {"kind": "route", **CELLS}),
+    (SpaceKind, {"kind": "space", **CELLS}),
 ]
 
 
@@ -184,7 +191,9 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     install(tmp_path, monkeypatch, "atoll.kinds", **names)
     assert {resolve_kind(name, "here").name for name in ("words", "room", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
-    with pytest.raises(InputError, match="known now: bits, block_pair, blocks, extra, room, surface, words"):
+    with pytest.raises(
+        InputError, match="known now: bits, block_pair, blocks, enclosure, extra, room, route, space, surface, words"
+    ):
         resolve_kind("house", "here")
 
 

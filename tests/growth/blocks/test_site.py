@@ -1,0 +1,148 @@
+"""Where cells may be placed: outlines, storeys, solids; and bare cells that grow there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from genome.errors import InputError
+from genome.lsystem import LSystem, parse_word
+from genome.settings import validated
+from growth.blocks import BlockGrowth, Body, CellGrowth, grow, grow_cells
+from growth.blocks.lattice import CUBIC, ISOSPATIAL
+from growth.blocks.site import OutlineSettings, site_of, within
+from growth.environment import Environment, environment_from
+from growth.protocol import Failure
+
+ELL = np.array([(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)], dtype=np.float64)
+
+
+def grid(low: int, high: int) -> np.ndarray:
+    side = np.arange(low, high + 1)
+    return np.stack(np.meshgrid(side, side, side, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def system(word: str) -> LSystem:
+    return LSystem(parse_word(word), (), 0, 0)
+
+
+def outlined(outline, floors=None, level=0):
+    return site_of(validated(OutlineSettings, {"outline": outline, "floors": floors}, "x"), level, Environment.empty())
+
+
+@pytest.mark.parametrize("turned", [ELL, ELL[::-1], np.roll(ELL, 2, axis=0)])
+def test_an_outline_holds_the_centres_in_it_and_on_its_edge(turned) -> None:
+    points = grid(-1, 5)[:, :2].astype(np.float64)
+    expected = [(0 <= x <= 4 and 0 <= y <= 2) or (0 <= x <= 2 and 0 <= y <= 4) for x, y in points]
+    assert within(turned, points).tolist() == expected
+    halves = points + 0.5
+    expected = [(0 < x < 4 and 0 < y < 2) or (0 < x < 2 and 0 < y < 4) for x, y in halves]
+    assert within(turned, halves).tolist() == expected
+
+
+@given(st.lists(st.tuples(st.integers(-6, 6), st.integers(-6, 6)), min_size=3, max_size=6, unique=True))
+def test_of_a_convex_outline_those_on_the_inner_side_of_all_edges_are_in_it(corners) -> None:
+    centre = np.mean(corners, axis=0)
+    around = np.array(sorted(corners, key=lambda c: np.arctan2(c[1] - centre[1], c[0] - centre[0])), dtype=np.float64)
+    after = np.roll(around, -1, axis=0) - around
+    turns = after[:, 0] * np.roll(after, -1, axis=0)[:, 1] - after[:, 1] * np.roll(after, -1, axis=0)[:, 0]
+    if not (turns > 0).all():
+        return
+    points = grid(-7, 7)[:, :2].astype(np.float64)
+    side = after[:, 0] * (points[:, None, 1] - around[:, 1]) - after[:, 1] * (points[:, None, 0] - around[:, 0])
+    assert within(around, points).tolist() == (side >= 0).all(axis=1).tolist()
+
+
+def test_storeys_begin_at_the_level_of_the_start() -> None:
+    site = outlined([[0, 0], [2, 0], [2, 2], [0, 2]], floors=3, level=4)
+    cells = grid(0, 8)
+    held = {tuple(cell) for cell in cells[site.holds(cells)].tolist()}
+    assert held == {(x, y, z) for x in range(3) for y in range(3) for z in (4, 5, 6)}
+    assert site_of(OutlineSettings(floors=1), 2, Environment.empty()).holds(cells).sum() == 81
+
+
+def test_solids_take_the_cells_whose_centre_lies_in_them() -> None:
+    box = {"shape": "box", "at": [0, 0, 0], "size": [3, 3, 3]}
+    cells = grid(-3, 3)
+    cube = (np.abs(cells) <= 1).all(axis=1)
+    for solid, expected in (("inside", ~cube), ("outside", cube)):
+        environment = environment_from({"boundaries": [{**box, "solid": solid}]}, "x", Path())
+        assert site_of(OutlineSettings(), 0, environment).holds(cells).tolist() == expected.tolist()
+    soft = environment_from({"boundaries": [{**box, "soft": True}]}, "x", Path())
+    assert site_of(OutlineSettings(), 0, soft).holds(cells).all(), "growth may pass it"
+
+
+@pytest.mark.parametrize(
+    ("outline", "message"),
+    [
+        ([[0, 0], [2, 2], [2, 0], [0, 2]], "one whose sides 1 and 3 meet"),
+        ([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]], "one whose sides 1 and 3 meet"),
+        ([[0, 0], [4, 0], [2, 0]], "one whose sides 1 and 2 meet"),
+        ([[0, 0], [1, 0], [2, 0]], "meet"),
+        ([[0, 0], [4, 0], [4, 0], [0, 4]], "[4.0, 0.0] twice in a row"),
+        ([[0, 0], [4, 0], [4, 4], [0, 0]], "[0.0, 0.0] twice in a row"),
+        ([[0, 0], [4, 0]], "an outline of three corners or more"),
+        ([[0, 0], [4, 0], [4, None]], "corners of two finite numbers"),
+        ([[0, 0], [4, 0], [4, True]], "corners of two finite numbers"),
+        ([[0, 0], [4, 0], [4, 1, 2]], "corners of two finite numbers"),
+        ("square", "an outline of three corners or more"),
+    ],
+)
+def test_an_outline_that_is_none_is_refused(outline, message) -> None:
+    with pytest.raises(InputError) as caught:
+        validated(OutlineSettings, {"outline": outline}, "x.yaml", ("growth", "site"))
+    assert str(caught.value).startswith("x.yaml: growth.site.outline")
+    assert message in str(caught.value)
+
+
+def test_an_outline_may_go_straight_on_and_bend_inwards() -> None:
+    for outline in ([[0, 0], [1, 0], [2, 0], [2, 2], [0, 2]], ELL.tolist(), ELL[::-1].tolist()):
+        assert outlined(outline).outline.shape == (len(outline), 2)
+
+
+def test_whether_an_outline_has_room_hangs_on_the_lattice() -> None:
+    small = [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]]
+    assert not outlined(small).has_room(CUBIC, 0)
+    one = [[0.5, 0], [1.5, -0.5], [1.5, 0.5]]
+    assert outlined(one).has_room(CUBIC, 0)
+    assert not outlined(one, floors=1).has_room(ISOSPATIAL, 0)
+    assert outlined(one, floors=1, level=1).has_room(ISOSPATIAL, 1)
+    assert outlined(one, floors=2).has_room(ISOSPATIAL, 0)
+    assert outlined(None).has_room(CUBIC, 0)
+
+
+def test_bare_cells_are_those_of_a_body_without_its_ground() -> None:
+    word = "F[+F|F^F]&FF[-FF]$F"
+    for lattice in ("cubic", "isospatial"):
+        body = grow(system(word), BlockGrowth(lattice=lattice))
+        assert isinstance(body, Body)
+        cells = grow_cells(system(word), CellGrowth(lattice=lattice, start=(4, -2, 6)))
+        assert isinstance(cells, np.ndarray)
+        assert (cells - [4, -2, 6]).tolist() == body.internal.tolist()
+        assert cells.dtype == np.int64
+
+
+def test_in_the_plane_all_cells_lie_in_it() -> None:
+    cells = grow_cells(system("F+F++FF&F^F$FF"), CellGrowth(lattice="square", start=(3, 3, 0)))
+    assert isinstance(cells, np.ndarray)
+    assert len(cells) > 4
+    assert not cells[:, 2].any()
+    assert cells[0].tolist() == [3, 3, 0]
+    with pytest.raises(InputError, match=r"which lie in the plane z = 0, got \[0, 0, 1\]"):
+        validated(CellGrowth, {"lattice": "square", "start": [0, 0, 1]}, "x")
+
+
+def test_cells_outside_the_site_are_left_out_and_the_turtle_goes_on() -> None:
+    growth = CellGrowth()
+    gap = grow_cells(system("FFFF"), growth, free=lambda cells: cells[:, 2] != 2)
+    assert isinstance(gap, np.ndarray)
+    assert gap[:, 2].tolist() == [0, 1, 3, 4]
+    none = grow_cells(system("FFFF"), growth, free=lambda cells: cells[:, 2] > 9)
+    assert none == Failure("empty", "none of 5 cells lies where cells may be placed")
+    much = grow_cells(system("FFFF"), CellGrowth(max_blocks=4))
+    assert isinstance(much, Failure)
+    assert much.reason == "budget"
