@@ -40,7 +40,7 @@ def decode_room(text: str) -> Room:
     InputError
         For anything else.
     """
-    found = _decoded(text)
+    found = decode_any(text)
     if not isinstance(found, Room):
         raise InputError("genotype", "a room", "an assembly")
     return found
@@ -48,13 +48,14 @@ def decode_room(text: str) -> Room:
 
 def decode_assembly(text: str) -> Assembly:
     """Read an assembly; as :func:`decode_room`."""
-    found = _decoded(text)
+    found = decode_any(text)
     if not isinstance(found, Assembly):
         raise InputError("genotype", "an assembly", "a room")
     return found
 
 
-def _decoded(text: str) -> Room | Assembly:
+def decode_any(text: str) -> Room | Assembly:
+    """Read a room or an assembly; as :func:`decode_room`."""
     try:
         data: Any = json.loads(text)
     except (ValueError, RecursionError):

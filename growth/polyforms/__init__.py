@@ -1,6 +1,16 @@
 """Rooms, zones and houses: forms conjoined of cells, and of each other (Rosenman 1997)."""
 
-from growth.polyforms.engine import assemble, draw_assembly, draw_room, grow_room, redraw_assembly, redraw_room
+from growth.polyforms.distance import distances
+from growth.polyforms.engine import (
+    assemble,
+    draw_assembly,
+    draw_room,
+    form_of,
+    grow_room,
+    mend_assembly,
+    redraw_assembly,
+    redraw_room,
+)
 from growth.polyforms.polyform import Plan, Polyform
 from growth.polyforms.tiling import CUBE, HEXAGON, SQUARE, TILINGS, TRIANGLE, Tiling
 
@@ -14,9 +24,12 @@ __all__ = [
     "Polyform",
     "Tiling",
     "assemble",
+    "distances",
     "draw_assembly",
     "draw_room",
+    "form_of",
     "grow_room",
+    "mend_assembly",
     "redraw_assembly",
     "redraw_room",
 ]

@@ -240,7 +240,7 @@ def layers_of(reach: int, steps: Ints, corners: Ints) -> int:
 
 
 @njit(cache=True)
-def conjoin(joins: Ints, redraw: int, state: State, first: int, steps: Ints, around: Ints, corners: Ints,
+def conjoin(joins: Ints, force: int, mend: int, state: State, first: int, steps: Ints, around: Ints, corners: Ints,
             lattice: Ints) -> tuple[Ints, Ints, int, int]:  # fmt: skip
     """Grow a form cell by cell.
 
@@ -248,9 +248,10 @@ def conjoin(joins: Ints, redraw: int, state: State, first: int, steps: Ints, aro
     ----------
     joins
         (n - 1, 2): the vector and the number of the free edge that each new cell joins.
-    redraw
-        The first conjoining that is drawn in any case; from there on one that does not fit is drawn too. n - 1 or more
-        draws none.
+    force
+        The conjoining that is drawn anew in any case; none with -1.
+    mend
+        From this one on those that do not fit are drawn anew; none with n - 1 or more.
     state
         (1,), of the draws: each free edge is as likely.
     first
@@ -275,10 +276,9 @@ def conjoin(joins: Ints, redraw: int, state: State, first: int, steps: Ints, aro
     put(cells[0], grid, meets, reach, corners, lattice)
     for k in range(1, count):
         reason = NO_EDGE
-        drawn = k - 1 == redraw
-        if not drawn:
+        if k - 1 != force:
             reason = _joined(cells, k, made[k - 1], grid, meets, reach, steps, around, corners, lattice)
-        if reason != DONE and k - 1 >= redraw:
+        if reason != DONE and (k - 1 >= mend or k - 1 == force):
             for _ in range(TRIES):
                 _draw_edge(cells, k, made[k - 1], grid, reach, steps, state)
                 reason = _joined(cells, k, made[k - 1], grid, meets, reach, steps, around, corners, lattice)
@@ -322,7 +322,7 @@ def _draw_edge(cells: Ints, count: int, join: Ints, grid: Bytes, reach: int, ste
 
 
 @njit(cache=True)
-def assemble(parts: Ints, starts: Ints, joins: Ints, redraw: int, state: State, steps: Ints, opposite: Ints,
+def assemble(parts: Ints, starts: Ints, joins: Ints, force: int, mend: int, state: State, steps: Ints, opposite: Ints,
              corners: Ints, lattice: Ints) -> tuple[Ints, Ints, int, int]:  # fmt: skip
     """Conjoin parts, each a form of its own.
 
@@ -335,7 +335,7 @@ def assemble(parts: Ints, starts: Ints, joins: Ints, redraw: int, state: State, 
     joins
         (p - 1, 3): the vector and the number of the free edge of the form so far, and the number of the new part's free
         edge of the opposite vector.
-    redraw, state
+    force, mend, state
         As of :func:`conjoin`; each free edge is as likely, and each of the part's that fits it.
 
     Returns
@@ -360,10 +360,10 @@ def assemble(parts: Ints, starts: Ints, joins: Ints, redraw: int, state: State, 
             z, y, x = spot(parts[k], own.shape[0], end - begin)
             own[z, y, x] = 1
         reason = NO_EDGE
-        if part - 1 != redraw:
+        if part - 1 != force:
             reason = _attached(cells, parts, begin, end, made[part - 1], grid, own, reach, steps, opposite, corners,
                                lattice)  # fmt: skip
-        if reason != DONE and part - 1 >= redraw:
+        if reason != DONE and (part - 1 >= mend or part - 1 == force):
             join = made[part - 1]
             for _ in range(TRIES):
                 _draw_edge(cells, begin, join, grid, reach, steps, state)

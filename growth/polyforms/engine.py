@@ -18,6 +18,7 @@ from growth.polyforms.polyform import Ints, Plan, Polyform
 from growth.polyforms.tiling import Tiling
 from growth.protocol import Failure
 
+NONE: Final = -1
 NEVER: Final = 2**40
 STILL: Final = np.zeros(1, dtype=np.uint64)
 REMEMBERED: Final = 4096
@@ -34,7 +35,7 @@ def grow_room(room: Room, tiling: Tiling) -> Polyform | Failure:
         not be a simple polygon.
     """
     joins = np.array(room.joins, dtype=np.int64).reshape(-1, 2)
-    cells, _, reason, at = _conjoined(joins, NEVER, STILL, room.first, tiling)
+    cells, _, reason, at = _conjoined(joins, NONE, NEVER, STILL, room.first, tiling)
     return Polyform(tiling, cells) if reason == _kernels.DONE else _failure(reason, at, joins, tiling)
 
 
@@ -46,13 +47,13 @@ def assemble(assembly: Assembly, tiling: Tiling) -> Plan | Failure:
     Plan or Failure
         As :func:`grow_room`; also where parts overlap.
     """
-    parts = [_form_of(part.genotype, tiling) for part in assembly.parts]
+    parts = [form_of(part.genotype, tiling) for part in assembly.parts]
     for one in parts:
         if isinstance(one, Failure):
             return one
     plans = [one for one in parts if isinstance(one, Plan)]
     joins = np.array(assembly.joins, dtype=np.int64).reshape(-1, 3)
-    cells, _, reason, at = _assembled(plans, joins, NEVER, STILL, tiling)
+    cells, _, reason, at = _assembled(plans, joins, NONE, NEVER, STILL, tiling)
     return _plan(plans, cells, tiling) if reason == _kernels.DONE else _failure(reason, at, joins, tiling)
 
 
@@ -60,29 +61,42 @@ def draw_room(size: int, tiling: Tiling, rng: np.random.Generator) -> Room:
     """Draw a room of so many cells; of triangles the first points up or down."""
     state = _state(rng)
     first = _kernels.below(state, tiling.types) if tiling.types > 1 else 0
-    return _drawn_room(np.zeros((size - 1, 2), dtype=np.int64), 0, state, first, tiling)
+    # No form has an edge of this number: each is drawn.
+    return _drawn_room(np.tile(np.array([0, NEVER], dtype=np.int64), (size - 1, 1)), NONE, 0, state, first, tiling)
 
 
 def redraw_room(room: Room, at: int, tiling: Tiling, rng: np.random.Generator) -> Room:
     """Draw one conjoining of a room anew, and those behind it that no longer fit."""
     joins = np.array(room.joins, dtype=np.int64).reshape(-1, 2)
-    return _drawn_room(joins, at, _state(rng), room.first, tiling)
+    return _drawn_room(joins, at, at, _state(rng), room.first, tiling)
 
 
 def draw_assembly(parts: Sequence[Part], tiling: Tiling, rng: np.random.Generator) -> Assembly | Failure:
     """Draw attachments of parts; a failure where no way to conjoin them was found."""
-    return redraw_assembly(Assembly(tuple(parts), (Attachment(0, 0, 0),) * (len(parts) - 1)), 0, tiling, rng)
+    none = Attachment(0, NEVER, 0)  # no form has an edge of this number
+    return mend_assembly(Assembly(tuple(parts), (none,) * (len(parts) - 1)), tiling, rng)
 
 
 def redraw_assembly(assembly: Assembly, at: int, tiling: Tiling, rng: np.random.Generator) -> Assembly | Failure:
     """Draw one attachment of an assembly anew, and those behind it that no longer fit."""
-    parts = [_form_of(part.genotype, tiling) for part in assembly.parts]
+    return _drawn_assembly(assembly, at, at, tiling, rng)
+
+
+def mend_assembly(assembly: Assembly, tiling: Tiling, rng: np.random.Generator) -> Assembly | Failure:
+    """Draw those attachments of an assembly anew that do not fit, as when one of its parts was exchanged."""
+    return _drawn_assembly(assembly, NONE, 0, tiling, rng)
+
+
+def _drawn_assembly(
+    assembly: Assembly, force: int, mend: int, tiling: Tiling, rng: np.random.Generator
+) -> Assembly | Failure:
+    parts = [form_of(part.genotype, tiling) for part in assembly.parts]
     for one in parts:
         if isinstance(one, Failure):
             return one
     plans = [one for one in parts if isinstance(one, Plan)]
     given = np.array(assembly.joins, dtype=np.int64).reshape(-1, 3)
-    _, joins, reason, place = _assembled(plans, given, at, _state(rng), tiling)
+    _, joins, reason, place = _assembled(plans, given, force, mend, _state(rng), tiling)
     if reason != _kernels.DONE:
         return _failure(reason, place, joins, tiling)
     return Assembly(assembly.parts, tuple(Attachment(*row) for row in joins.tolist()))
@@ -96,24 +110,24 @@ def _state(rng: np.random.Generator) -> np.ndarray[tuple[int], np.dtype[np.uint6
 
 
 def _conjoined(
-    joins: Ints, redraw: int, state: _kernels.State, first: int, tiling: Tiling
+    joins: Ints, force: int, mend: int, state: _kernels.State, first: int, tiling: Tiling
 ) -> tuple[Ints, Ints, int, int]:
     return _kernels.conjoin(
-        joins, redraw, state, first, tiling.steps, tiling.around, tiling.corners, tiling.lattice
-    )  # fmt: skip
+        joins, force, mend, state, first, tiling.steps, tiling.around, tiling.corners, tiling.lattice
+    )
 
 
-def _drawn_room(joins: Ints, at: int, state: _kernels.State, first: int, tiling: Tiling) -> Room:
+def _drawn_room(joins: Ints, force: int, mend: int, state: _kernels.State, first: int, tiling: Tiling) -> Room:
     """Draw until all fit: a form has a free edge where a cell fits in any case, and each is drawn sooner or later."""
     while True:
-        _, made, reason, at_least = _conjoined(joins, at, state, first, tiling)
+        _, made, reason, _ = _conjoined(joins, force, mend, state, first, tiling)
         if reason == _kernels.DONE:
             return Room(tuple(Conjoining(*row) for row in made.tolist()), first)
-        joins, at = made, min(at, at_least)
 
 
 @lru_cache(maxsize=REMEMBERED)
-def _form_of(genotype: Room | Assembly, tiling: Tiling) -> Plan | Failure:
+def form_of(genotype: Room | Assembly, tiling: Tiling) -> Plan | Failure:
+    """Grow a genotype of either sort as a plan, a room as one of a single room; the last ones grown are remembered."""
     if isinstance(genotype, Assembly):
         return assemble(genotype, tiling)
     form = grow_room(genotype, tiling)
@@ -123,12 +137,12 @@ def _form_of(genotype: Room | Assembly, tiling: Tiling) -> Plan | Failure:
 
 
 def _assembled(
-    plans: Sequence[Plan], joins: Ints, redraw: int, state: _kernels.State, tiling: Tiling
+    plans: Sequence[Plan], joins: Ints, force: int, mend: int, state: _kernels.State, tiling: Tiling
 ) -> tuple[Ints, Ints, int, int]:
     cells = np.concatenate([plan.cells for plan in plans])
     starts = np.cumsum([0, *(len(plan.cells) for plan in plans)])
     return _kernels.assemble(
-        cells, starts, joins, redraw, state, tiling.steps, tiling.opposite, tiling.corners, tiling.lattice,
+        cells, starts, joins, force, mend, state, tiling.steps, tiling.opposite, tiling.corners, tiling.lattice,
     )  # fmt: skip
 
 

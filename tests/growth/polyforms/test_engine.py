@@ -19,9 +19,11 @@ from growth.polyforms import (
     Polyform,
     Tiling,
     assemble,
+    distances,
     draw_assembly,
     draw_room,
     grow_room,
+    mend_assembly,
     redraw_assembly,
     redraw_room,
 )
@@ -189,3 +191,24 @@ def test_redrawing_an_attachment_keeps_the_parts() -> None:
 def test_parts_that_cannot_be_grown_fail_as_they_do_alone() -> None:
     bad = Part(0, room("E7"))
     assert str(assemble(Assembly((bad,), ()), SQUARE)) == "conjoining: number 1: there is no free edge E7"
+
+
+def test_mending_keeps_what_fits_and_draws_the_rest() -> None:
+    rng = np.random.default_rng(13)
+    one = drawn([Part(k, draw_room(6, SQUARE, rng)) for k in range(4)], SQUARE, rng)
+    assert mend_assembly(one, SQUARE, rng) == one
+    swapped = Assembly((Part(9, draw_room(9, SQUARE, rng)), *one.parts[1:]), (Attachment(0, 99, 0), *one.joins[1:]))
+    mended = mend_assembly(swapped, SQUARE, rng)
+    assert isinstance(mended, Assembly)
+    assert isinstance(assemble(mended, SQUARE), Plan)
+    assert mended.parts == swapped.parts
+
+
+def test_distances_are_what_forms_do_not_share() -> None:
+    def plan(*cells: tuple[int, int, int]) -> Plan:
+        rows = np.array(cells)
+        return Plan(SQUARE, np.column_stack([rows[:, :2], np.zeros(len(rows), dtype=np.int64)]), rows[:, 2])
+
+    forms = [plan((0, 0, 0), (1, 0, 0)), plan((5, 5, 0), (6, 5, 1)), plan((0, 0, 1), (0, 1, 1), (0, 2, 1))]
+    assert distances(forms) == pytest.approx(np.array([[0, 2 / 3, 1], [2 / 3, 0, 1], [1, 1, 0]]))
+    assert distances([]).shape == (0, 0)
