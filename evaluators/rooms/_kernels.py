@@ -7,6 +7,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
 
 ABSENT = -(2**20)
 
@@ -57,3 +58,27 @@ def turning(cells: Ints, corners: Ints, lattice: Ints, straight: int) -> int:
         elif 0 < count < full and count != straight:
             total += 1
     return total
+
+
+@njit(cache=True)
+def slimness(cells: Ints, rooms: Ints, count: int, corners: Ints, lattice: Ints, positions: Floats) -> Floats:
+    """Give the short over the long horizontal side of the upright box around each room: (count,) float64."""
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    for n in range(len(cells)):
+        kind = cells[n, 2] if corners.shape[0] > 1 else 0
+        for k in range(corners.shape[1]):
+            x, y = 0.0, 0.0
+            for axis in range(3):
+                place = corners[kind, k, axis]
+                for other in range(3):
+                    place += lattice[axis, other] * cells[n, other]
+                x += positions[0, axis] * place
+                y += positions[1, axis] * place
+            room = rooms[n]
+            low[room, 0], high[room, 0] = min(low[room, 0], x), max(high[room, 0], x)
+            low[room, 1], high[room, 1] = min(low[room, 1], y), max(high[room, 1], y)
+    sides = high - low
+    found = np.empty(count)
+    for room in range(count):
+        found[room] = min(sides[room, 0], sides[room, 1]) / max(sides[room, 0], sides[room, 1])
+    return found

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from evaluators.rooms import _kernels
 from growth.polyforms.polyform import Polyform
 
@@ -28,6 +30,5 @@ def proportions(room: Polyform) -> float:
     Of cubes the box's two horizontal sides.
     """
     tiling = room.tiling
-    points = tiling.vertices(room.cells).reshape(-1, 3) @ tiling.positions.T
-    width, depth, _ = (points.max(axis=0) - points.min(axis=0)).tolist()
-    return float(min(width, depth) / max(width, depth))
+    whole = np.zeros(len(room.cells), dtype=np.int64)
+    return float(_kernels.slimness(room.cells, whole, 1, tiling.corners, tiling.lattice, tiling.positions)[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple, final
 
 
@@ -52,6 +52,15 @@ class Room:
 
     joins: tuple[Conjoining, ...]
     first: int = 0
+    _hash: int = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Forms are looked up by their genotypes, and a house's is hundreds of numbers.
+        object.__setattr__(self, "_hash", hash((self.first, self.joins)))
+
+    def __hash__(self) -> int:
+        """Give the hash of all genes, worked out once."""
+        return self._hash
 
     @property
     def size(self) -> int:
@@ -91,6 +100,14 @@ class Assembly:
 
     parts: tuple[Part, ...]
     joins: tuple[Attachment, ...]
+    _hash: int = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_hash", hash((self.parts, self.joins)))
+
+    def __hash__(self) -> int:
+        """Give the hash of all genes, worked out once."""
+        return self._hash
 
     @property
     def size(self) -> int:
