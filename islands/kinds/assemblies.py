@@ -163,13 +163,27 @@ class AssemblyBiology:
         return Assembly(tuple(parts), (Attachment(0, 0, 0),) * (len(parts) - 1))
 
     def crossover(self, first: Assembly, second: Assembly, rng: np.random.Generator) -> tuple[Assembly, Assembly]:
-        """Cross two plans at a site where both children can be conjoined: parts and attachments in turn."""
+        """Cross two plans at a site where both children can be conjoined: parts and attachments in turn.
+
+        Where no such site is found, attachments that no longer fit are drawn anew: an attachment numbers the edges of
+        the parts before it, which the other parent's have not.
+        """
 
         def valid(genes: tuple[Part | Attachment, ...]) -> bool:
             return isinstance(form_of(_assembly(genes), self._tiling), Plan)
 
-        one, other = crossover(_genes(first), _genes(second), rng, valid)
-        return _assembly(one), _assembly(other)
+        ours, theirs = _genes(first), _genes(second)
+        one, other = crossover(ours, theirs, rng, valid)
+        if one != ours or other != theirs or first == second or len(ours) < 2:
+            return _assembly(one), _assembly(other)
+        cut = int(rng.integers(1, len(ours)))
+        children = (_assembly(ours[:cut] + theirs[cut:]), _assembly(theirs[:cut] + ours[cut:]))
+        mended = [mend_assembly(child, self._tiling, rng) for child in children]
+        first, second = (
+            child if isinstance(child, Assembly) else parent
+            for child, parent in zip(mended, (first, second), strict=True)
+        )
+        return first, second
 
     def mutate(self, genotype: Assembly, rng: np.random.Generator) -> Assembly:
         """Exchange a part for another one of its name, or draw an attachment anew; mend what no longer fits."""

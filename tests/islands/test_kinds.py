@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from archipelagos import spec
 from bits import BitsKind
+from houses import SUPPLIED_HOUSE, SuppliedHouseKind
 from plugged import install
 
 from evaluators.registry import CRITERIA
@@ -18,6 +19,7 @@ from islands.kinds.blocks import BlocksKind
 from islands.kinds.enclosure import EnclosureKind
 from islands.kinds.protocol import Biology, Kind
 from islands.kinds.registry import KINDS, LATER, resolve_kind
+from islands.kinds.room import RoomKind
 from islands.kinds.route import RouteKind
 from islands.kinds.space import SpaceKind
 from islands.kinds.surface import SurfaceKind
@@ -38,6 +40,8 @@ EVERY = [
     (EnclosureKind, {"kind": "enclosure", **CELLS}),
     (RouteKind, {"kind": "route", **CELLS}),
     (SpaceKind, {"kind": "space", **CELLS}),
+    (RoomKind, {"kind": "room", "genome": {"cells": 9}, "growth": {}, "fitness": {"corners": {"goal": "minimise"}}}),
+    (SuppliedHouseKind, SUPPLIED_HOUSE),
 ]
 
 
