@@ -25,6 +25,9 @@ HOUSE: Final = "house"
 Level = Literal["room", "zone", "house"]
 
 
+Fitness = Annotated[dict[str, Goal], Field(min_length=1)]
+
+
 class LevelSettings(Settings):
     """How the islands of one level evolve.
 
@@ -47,23 +50,20 @@ class LevelSettings(Settings):
     runs: Count = 1
     epochs: Count = 8
     population: Count = 48
-    fitness: Annotated[dict[str, Goal], Field(min_length=1)]
+    fitness: Fitness | None = None
     algorithm: Algorithm = Algorithm(mutation=0.3)
     rise: Count = 10
     select: str = "spread"
     required: dict[str, float] = Field(default_factory=dict)
 
 
-def _goal(scale: float = 1.0, weight: float = 1.0) -> Goal:
-    return Goal(goal="minimise", weight=weight, scale=scale)
-
-
-def _rooms() -> LevelSettings:
-    return LevelSettings(fitness={"perimeter_to_area": _goal(), "corners": _goal(scale=20.0)})
-
-
-def _plans() -> LevelSettings:
-    return LevelSettings(fitness={"adjacency": _goal()})
+ROOMS: Final = {
+    "perimeter_to_area": Goal(goal="minimise"),
+    "corners": Goal(goal="minimise", scale=20.0),
+}
+PLANS: Final = {"adjacency": Goal(goal="minimise")}
+USUAL: Final[Mapping[Level, Mapping[str, Goal]]] = {"room": ROOMS, "zone": PLANS, "house": PLANS}
+"""Goals of a level that has none of its own (Rosenman 1997, section 3.3.1)."""
 
 
 class BriefSettings(Brief):
@@ -89,9 +89,9 @@ class BriefSettings(Brief):
     order: Literal["matrix", "given"] = "matrix"
     levels: Literal["in_turn", "together"] = "together"
     ask: bool = True
-    room: LevelSettings = Field(default_factory=_rooms)
-    zone: LevelSettings = Field(default_factory=_plans)
-    house: LevelSettings = Field(default_factory=_plans)
+    room: LevelSettings = LevelSettings()
+    zone: LevelSettings = LevelSettings()
+    house: LevelSettings = LevelSettings()
 
     @model_validator(mode="after")
     def _each_room_in_one_zone(self) -> Self:
@@ -193,11 +193,12 @@ def _islands(brief: BriefSettings) -> dict[str, Any]:
 
 def _island(level: Level, brief: BriefSettings) -> dict[str, Any]:
     settings: LevelSettings = getattr(brief, level)
+    goals = settings.fitness or USUAL[level]
     island: dict[str, Any] = {
         "kind": level,
         "count": settings.runs,
         "population": settings.population,
-        "fitness": {name: goal.model_dump(mode="json", exclude_none=True) for name, goal in settings.fitness.items()},
+        "fitness": {name: goal.model_dump(mode="json", exclude_none=True) for name, goal in goals.items()},
         "algorithm": settings.algorithm.model_dump(mode="json", exclude_none=True),
     }
     if brief.levels == "in_turn":

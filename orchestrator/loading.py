@@ -114,6 +114,11 @@ def resolved(data: dict[str, Any], source: str) -> Experiment:
     InputError
         For the first thing that is wrong.
     """
+    if "brief" in data:
+        # Imported where it is used: criteria of plans bring the compiler with them.
+        from orchestrator.briefs import expanded
+
+        data = expanded(data, source)
     defaults = data.pop("defaults", None)
     if defaults is not None:
         validated(IslandDefaults, defaults, source, ("defaults",))
