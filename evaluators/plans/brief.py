@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import BeforeValidator, Field, StringConstraints, model_validator
+from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, model_validator
 
 from evaluators.plans.outline import Outline, as_outline
 from genome.errors import InputError
@@ -45,6 +45,15 @@ def _as_adjacency(value: object) -> Adjacency:
         ):
             return Adjacency(first, second, float(weight))
     raise InputError("", "two rooms, and a weight above 0 if it is not 1: [hall, bathroom, 2]", describe(value))
+
+
+_PAIR_SCHEMA = {
+    "type": "array",
+    "prefixItems": [{"type": "string"}, {"type": "string"}, {"type": "number", "exclusiveMinimum": 0}],
+    "minItems": 2,
+    "maxItems": 3,
+}
+Pair = Annotated[Adjacency, BeforeValidator(_as_adjacency), WithJsonSchema(_PAIR_SCHEMA)]
 
 
 class RoomWish(Settings):
@@ -111,7 +120,7 @@ class Brief(Settings):
     tiling: Literal["square", "triangle", "hexagon", "cube"] = "square"
     unit: Annotated[float, Field(gt=0, le=1000)] = 1.0
     rooms: Annotated[dict[RoomName, RoomWish], Field(min_length=1)]
-    adjacencies: list[Annotated[Adjacency, BeforeValidator(_as_adjacency)]] = Field(default_factory=list)
+    adjacencies: list[Pair] = Field(default_factory=list)
     entrance: str | None = None
     door: Annotated[int, Field(ge=1, le=1000)] = 1
     site: SiteWish = SiteWish()
