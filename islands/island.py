@@ -19,6 +19,7 @@ from growth.protocol import Clock
 from islands.algorithms.breeding import Birth, breed
 from islands.algorithms.scheme import SCHEMES
 from islands.biologies import Biologies
+from islands.context import Context
 from islands.figures import figures
 from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
@@ -33,6 +34,7 @@ from islands.reception import Arrived, reason_of, received, rescored, steered_re
 from islands.regime import Build, Regimes
 from islands.registrar import Registrar
 from islands.selection import ranked
+from islands.sharing import judged, survivors
 from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
 from islands.steered import Steered
@@ -101,7 +103,7 @@ class Island(Generic[G]):
         started = self._clock()
         streams = EpochStreams(self._seed, self.spec.number, epoch)
         context = self._regimes.usual.contexts.alone
-        registrar = Registrar(self.spec.number, epoch, 0, 0, context, streams, self._pulse)
+        registrar = self._registrar(epoch, 0, 0, context, streams)
         deme = self._settled_anew(registrar, streams)
         diversity = self._summarise(deme, registrar, started)
         best = registrar.generations[-1].best
@@ -131,7 +133,7 @@ class Island(Generic[G]):
         number, epoch = self.spec.number, state.epoch + 1
         streams = EpochStreams(self._seed, number, epoch)
         context = self._regimes.of(state.steered).contexts.alone
-        registrar = Registrar(number, epoch, state.generation, state.counter, context, streams, self._pulse)
+        registrar = self._registrar(epoch, state.generation, state.counter, context, streams)
         own = concerning(interventions, self.spec.name)
         migrants, others = self._sorted(arrivals)
         subject, held, best = self._settled(state, own, others, registrar)
@@ -152,6 +154,12 @@ class Island(Generic[G]):
                 best, stagnant = now, 0
         after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
         return self._ended(after, diversity, registrar, streams)
+
+    def _registrar(
+        self, epoch: int, generation: int, counter: int, context: Context[G], streams: EpochStreams
+    ) -> Registrar[G]:
+        sharing = self.spec.algorithm.sharing != "none"
+        return Registrar(self.spec.number, epoch, generation, counter, context, streams, self._pulse, sharing=sharing)
 
     # -- arriving ------------------------------------------------------------------------------------------------
 
@@ -206,7 +214,7 @@ class Island(Generic[G]):
         if not deme:
             return self._settled_anew(registrar, streams)
         settings = self._regimes.of(steered).algorithm
-        order = free = ranked(deme, steered.promoted)
+        order = free = ranked(judged(deme, settings), steered.promoted)
         kept: list[Individual[G]] = []
         if steered.locked:
             kept = [one for one in order if one.id in steered.locked]
@@ -218,7 +226,10 @@ class Island(Generic[G]):
         breeders = self._scheme.breeders(settings, self.spec.population, order)
         births = breed(registrar.context.biology, breeders, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
-        return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
+        if settings.sharing != "none":
+            own = {one.id: one for one in deme}
+            kept, free = [own[one.id] for one in kept], [own[one.id] for one in free]
+        return (*kept, *survivors(self._scheme, settings, places, free, children, steered.promoted))
 
     def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
         biology, rng = registrar.context.biology, streams(Purpose.INITIAL)
