@@ -18,6 +18,7 @@ from islands.migration.channel import Migrant
 from islands.state import Deme, State
 from islands.steered import Steered
 from islands.tally import Champion
+from islands.watch import Known, Watch
 
 MEMBER: Final = ("ids", "genotypes", "fitness", "scores", "errors", "since", "outcomes")
 """The columns of a deme; the last is not in checkpoints of version 1."""
@@ -61,6 +62,7 @@ def state_text(state: State[Any], champion: Champion | None) -> str:
             "steered": state.steered.to_json(),
             "held": {} if held == NOTHING else held._asdict(),
             "champion": champion,
+            "watched": state.watched,
         },
         separators=(",", ":"),
     )
@@ -85,9 +87,17 @@ def read_state(text: str, deme: Deme[Any]) -> tuple[State[Any], Champion | None]
         held=_holdings(told["held"]),
         scoring=told["scoring"],
         steered=Steered.from_json(told["steered"]),
+        watched=_watches(told.get("watched", ())),  # not in checkpoints of version 1
     )
     champion = told["champion"]
     return state, None if champion is None else (champion[0], champion[1])
+
+
+def _watches(told: Sequence[Any]) -> tuple[Watch, ...]:
+    return tuple(
+        Watch(channel, tuple(Known(identity, text) for identity, text in champions), stalled)
+        for channel, champions, stalled in told
+    )
 
 
 def _holdings(told: Mapping[str, Any]) -> Holdings:

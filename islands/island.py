@@ -6,7 +6,8 @@ Only the clock's columns differ from run to run.
 
 An epoch goes so: interventions that begin with it change goals, rates and members; what channels of partners,
 components and surroundings bring is taken in, and where any of that changes how members score, the deme is scored
-again; those who are inserted join, then migrants; then generations are bred; then each edge's packet is made.
+again; those who are inserted join, then migrants; then generations are bred; then what is watched is measured, and
+each edge's packet is made.
 """
 
 from __future__ import annotations
@@ -39,6 +40,7 @@ from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
 from islands.steered import Steered
 from islands.streams import EpochStreams, Purpose
+from islands.watch import Watcher
 
 __all__ = ["Advance", "Island", "Pulse", "State"]
 
@@ -94,6 +96,7 @@ class Island(Generic[G]):
         self._scheme: Final = SCHEMES[spec.algorithm.name]
         into = routes.channels_into(spec.number)
         self._regimes: Final = Regimes(spec, biology, into, build or Biologies(clock))
+        self._watcher: Final[Watcher[G]] = Watcher(into, pulse)
         # Edges as they are looked up, and the routes' own tuple that they were made of.
         self._doors: tuple[tuple[Edge, ...], Mapping[tuple[int, int], Edge]] = ((), {})
         self._bundles: tuple[tuple[Edge, ...], tuple[Bundle, ...]] = ((), ())
@@ -152,7 +155,10 @@ class Island(Generic[G]):
             now = registrar.generations[-1].best
             if now is not None and (best is None or now > best):
                 best, stagnant = now, 0
-        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
+        watched, details = self._watcher.look(deme, registrar.context, held, state.watched)
+        for detail in details:
+            registrar.note("coevolution", detail)
+        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered, watched)
         return self._ended(after, diversity, registrar, streams)
 
     def _registrar(
@@ -266,6 +272,6 @@ class Island(Generic[G]):
         steered = state.steered.among(one.id for one in deme)
         after = State(
             deme, state.epoch, state.generation, state.counter, state.best, state.stagnant, state.held,
-            context.scoring, steered,
+            context.scoring, steered, state.watched,
         )  # fmt: skip
         return Advance(after, packets, registrar.records())
