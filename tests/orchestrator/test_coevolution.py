@@ -1,0 +1,121 @@
+"""Coevolution with its remedies and measures: the same on any number of hosts, and after a run was broken off."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pyarrow.dataset as ds
+import pytest
+from hosts import BrokenOffError, resume_on_threads, run_on_threads
+
+from experiments import run, write
+from orchestrator.digest import digest
+from orchestrator.folder import open_run
+from orchestrator.messages import EpochDone
+from orchestrator.query import ask
+from orchestrator.regrow import Nursery, by_id, same
+
+MIXED = {"kind": "partners", "pairing": "mixed", "pairings": 5, "count": 3, "archive": 4, "measures": True}
+
+
+def arms(**algorithm) -> dict:
+    """Hosts that flee from guests, and guests that follow, two islands of each; migrants among the hosts."""
+    return {
+        "name": "arms",
+        "seed": 5,
+        "epochs": 8,
+        "epoch": 2,
+        "backend": "inline",
+        "defaults": {
+            "kind": "bits", "count": 2, "population": 8, "genome": {"length": 12},
+            "algorithm": {"sharing": "competitive", "mutation": 0.5, **algorithm},
+        },
+        "islands": {
+            "host": {"species": "host", "fitness": {"agreement": {"goal": "minimise"}}},
+            "guest": {"species": "guest", "fitness": {"agreement": {"goal": "maximise"}}},
+        },
+        "channels": [
+            {"topology": "ring", "among": "host", "count": 2},
+            {"name": "to-hosts", "from": "guest", "to": "host", **MIXED},
+            {"name": "to-guests", "from": "host", "to": "guest", **MIXED, "pairing": "random", "pairings": 2},
+        ],
+    }  # fmt: skip
+
+
+def told(log: Path, kind: str = "coevolution") -> list[tuple]:
+    found = [row for row in ds.dataset(log / "events").to_table().to_pylist() if row["kind"] == kind]
+    return sorted((row["epoch"], row["island"], row["detail"]) for row in found)
+
+
+@pytest.mark.parametrize("algorithm", [{}, {"name": "plus"}, {"name": "parents", "longest_life": 3}], ids=str)
+def test_digest_and_measures_are_the_same_on_any_number_of_hosts(tmp_path, algorithm) -> None:
+    data = write(tmp_path, arms(**algorithm))
+    alone = run(tmp_path, arms(**algorithm)).folder / "log"
+    rows = told(alone)
+    assert [row[:2] for row in rows] == [
+        (epoch, f"{name}-{n}") for epoch in range(1, 9) for name in ("guest", "host") for n in (0, 1)
+    ]
+    for hosts, storm, schedule in ((1, None, "barrier"), (2, 1, "barrier"), (4, 2, "dataflow")):
+        log, outcome = run_on_threads(tmp_path, data, hosts, f"schedule={schedule}", storm=storm)
+        assert (outcome.status, digest(log)) == ("finished", digest(alone))
+        assert told(log) == rows
+
+
+@pytest.mark.parametrize("sharing", ["competitive", "none"])
+def test_a_run_that_was_broken_off_goes_on_to_the_same_digest_and_measures(tmp_path, sharing) -> None:
+    data = write(tmp_path, arms(sharing=sharing))
+    log, _ = run_on_threads(tmp_path / "whole", data, 2)
+
+    def breaking(event, backend) -> None:
+        if isinstance(event, EpochDone) and event.epoch >= 5:
+            raise BrokenOffError
+
+    with pytest.raises(BrokenOffError):
+        run_on_threads(tmp_path / "part", data, 2, meanwhile=breaking)
+    again, outcome = resume_on_threads(tmp_path / "part" / "arms", 3)
+    assert outcome.status == "finished"
+    assert ask(again, "select count(*) from events where kind = 'resume'").rows == [(1,)]
+    assert digest(again) == digest(log)
+    assert told(again) == told(log)
+
+
+def test_every_individual_replays_with_the_partners_that_it_was_mixed_with(tmp_path) -> None:
+    folder = open_run(str(run(tmp_path, arms()).folder))
+    nursery = Nursery(folder)
+    ids = [identity for (identity,) in ask(folder.log, "select id from individuals order by id").rows]
+    assert all(same(logged, nursery.score(logged)) for logged in by_id(folder, ids))
+    sql = "select distinct epoch, len(partners) from individuals where species = 'host' order by all"
+    # The best, two others shown, and past ones, of which there are none at first.
+    assert ask(folder.log, sql).rows == [(0, 0), (1, 5), (2, 5), (3, 5), (4, 5), (5, 5), (6, 5), (7, 5), (8, 5)]
+
+
+def test_a_champion_s_score_is_that_of_the_members_of_the_log(tmp_path) -> None:
+    log = run(tmp_path, arms()).folder / "log"
+    genes = dict(ask(log, "select id, genotype from individuals").rows)
+    for epoch, island, detail in told(log):
+        one = json.loads(detail)
+        sign = 1 if island.startswith("guest") else -1
+        for identity, value in one["archive"]["each"]:
+            unlike = sum(a != b for a, b in zip(genes[one["champion"]], genes[identity], strict=True))
+            assert value == sign * (1 - unlike / 12)
+        assert one["archive"]["number"] <= min(epoch - 1, 4)
+    assert any(json.loads(detail)["archive"]["number"] == 4 for *_, detail in told(log))
+
+
+def test_settings_left_alone_are_those_of_before(tmp_path) -> None:
+    plain = arms(sharing="none")
+    for channel in plain["channels"][1:]:
+        channel |= {"pairing": "several", "pairings": 2, "measures": False, "archive": 0}
+    bare = json.loads(json.dumps(plain))
+    for channel in bare["channels"][1:]:
+        del channel["measures"], channel["archive"]
+    del bare["defaults"]["algorithm"]["sharing"]
+    logs = []
+    for number, data in enumerate((plain, bare)):
+        (tmp_path / str(number)).mkdir()
+        logs.append(run(tmp_path / str(number), data).folder / "log")
+    assert digest(logs[0]) == digest(logs[1])
+    # As drawn before there was any sharing of fitness.
+    assert digest(logs[1])[0] == "4f267ef53105e4cf4073d21d0f21d9e193c4cdfc4820ac9a3298ea6575a5a107"
+    assert told(logs[1]) == []
