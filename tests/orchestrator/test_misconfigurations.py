@@ -116,10 +116,10 @@ CASES = {
         partners(pairing="mixed"), "channels.1.archive", "an archive of 1 or more for pairing: mixed with pairin"
     ),
     "an archive too small to mix with": (
-        partners(pairing="mixed", pairings=7, archive=2), "channels.1.archive", "archive of 3 or more for pairing: mixed"
+        partners(pairing="mixed", pairings=7, archive=2), "channels.1.archive", "archive of 3 or more for pairing: mix"
     ),
     "a mixture of two": (
-        partners(pairing="mixed", pairings=2, archive=2), "channels.1.pairings", "expected 3 or more with pairing: mixed"
+        partners(pairing="mixed", pairings=2, archive=2), "channels.1.pairings", "expected 3 or more with pairing: mix"
     ),
     "a mixture with too few shown": (
         partners(pairing="mixed", pairings=5, archive=4), "channels.1.pairings",
@@ -140,7 +140,7 @@ CASES = {
                         channels=[{"topology": "ring"}]), indent=1),
         "islands.a.algorithm.sharing", "got no channel of partners to a-0; it is partners that members share: add"
     ),
-    "fitness shared by a word": (partners("fair"), "islands.guest.algorithm.sharing", "'none' or 'competitive', got 'f"),
+    "fitness shared by a word": (partners("fair"), "islands.guest.algorithm.sharing", "'none' or 'competitive', got "),
     "two islands of one name": (TWICE, "", "each key once, got 'north' again (line 3)"),
     "two islands of one name by count": (NUMBERED, "islands.north-1", "'north-1', a name that the islands of 'north'"),
 }  # fmt: skip
