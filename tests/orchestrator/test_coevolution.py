@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pyarrow.dataset as ds
 import pytest
+import yaml
 from hosts import BrokenOffError, resume_on_threads, run_on_threads
 
 from experiments import run, write
 from orchestrator.digest import digest
 from orchestrator.folder import open_run
 from orchestrator.messages import EpochDone
-from orchestrator.query import ask
+from orchestrator.query import as_rows, ask
 from orchestrator.regrow import Nursery, by_id, same
 
 MIXED = {"kind": "partners", "pairing": "mixed", "pairings": 5, "count": 3, "archive": 4, "measures": True}
@@ -119,3 +121,42 @@ def test_settings_left_alone_are_those_of_before(tmp_path) -> None:
     # As drawn before there was any sharing of fitness.
     assert digest(logs[1])[0] == "4f267ef53105e4cf4073d21d0f21d9e193c4cdfc4820ac9a3298ea6575a5a107"
     assert told(logs[1]) == []
+
+
+# -- what the documentation says ---------------------------------------------------------------------------------------
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def documented() -> list[str]:
+    return re.findall(r"```sql\n(.*?)```", (ROOT / "docs" / "coevolution.md").read_text(encoding="utf-8"), re.DOTALL)
+
+
+def test_the_documented_query_draws_each_trouble_from_the_log(tmp_path) -> None:
+    data = yaml.safe_load((ROOT / "experiments" / "arms_race.yaml").read_text(encoding="utf-8"))
+    # A third pair of which one side cannot change: it has nothing to choose from, and no way on.
+    dead = {"genome": {"length": 24, "flip": 0}, "population": 8, "algorithm": {"elite": 1, "crossover": 0}}
+    data["islands"] |= {"dead-host": {"species": "dead-host", "population": 8}, "dead-parasite": dead}
+    data["channels"] += [
+        {"kind": "partners", "from": f"dead-{one}", "to": f"dead-{other}", "archive": 5, "measures": True}
+        for one, other in (("host", "parasite"), ("parasite", "host"))
+    ]
+    log = run(tmp_path, data).folder / "log"
+    troubles, queen, _ = documented()
+    rows = {row["island"]: row for row in as_rows(ask(log, troubles))}
+    assert all(row["epochs"] == 20 for row in rows.values())
+    plain, hall = ([rows[f"{pair}-{end}"] for end in ("host", "parasite")] for pair in ("plain", "hall"))
+    assert min(row["cycling"] for row in plain) > 0.5 > 0.1 > max(row["cycling"] for row in hall)
+    assert max(row["archive_score"] for row in plain) < 0.5 < min(row["archive_score"] for row in hall)
+    beaten = rows["dead-parasite"]
+    assert (beaten["distinct_fitness"], beaten["spread"]) == (1 / 8, 0.0)
+    assert beaten["stalled"] > 30
+    drawn = as_rows(ask(log, queen))
+    assert {row["fitness"] for row in drawn} == {-1.0, 0.0, 1.0}
+    assert all(row["born"] < row["epoch"] for row in drawn)
+
+
+def test_the_documented_query_tells_who_was_late(tmp_path) -> None:
+    log, _ = run_on_threads(tmp_path, write(tmp_path, arms()), 4, "schedule=async", "checkpoint.every=99", storm=3)
+    rows = ask(log, documented()[2]).rows
+    assert sum(times for *_, times in rows) == len(told(log, "late")) > 0
