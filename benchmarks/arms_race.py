@@ -29,13 +29,14 @@ PLAIN = "the best of now"
 
 GAMES: Mapping[str, tuple[str, ...]] = {
     "rivalry": (),
-    "agreement": tuple(
-        f"islands.{pair}-{end}.fitness={{agreement: {{goal: {goal}}}}}"
-        for pair in ("plain", "hall")
-        for end, goal in (("host", "maximise"), ("parasite", "minimise"))
+    "agreement": (
+        "defaults.fitness={agreement: {goal: maximise}}",
+        "islands.plain-parasite.fitness={agreement: {goal: minimise}}",
+        "islands.hall-parasite.fitness={agreement: {goal: minimise}}",
     ),
 }
-"""The race of the experiment; and one in which parasites want as little as can be of what hosts want."""
+"""The race of the experiment; and one in which parasites want as little as can be of what hosts want: hosts follow,
+parasites flee. There ones mean nothing."""
 
 
 def remedy(pairing: str, count: int, sharing: str) -> tuple[str, ...]:
@@ -93,16 +94,16 @@ def told(game: str, name: str, found: Sequence[Row], plain: Sequence[Row]) -> st
     return f"| {game} | {name} | {' | '.join(cells)} |"
 
 
-def main() -> bool:
-    """Print the table, and whether the hall of fame holds back forgetting in the experiment as it stands."""
-    tasks = [(game, name, seed) for game in GAMES for name in REMEDIES for seed in SEEDS]
+def main(games: Sequence[str]) -> bool:
+    """Print the table of some games, and whether the remedy of the experiment as it stands raises the archive score."""
+    tasks = [(game, name, seed) for game in games for name in REMEDIES for seed in SEEDS]
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         results = dict(zip(tasks, pool.map(contest, tasks, chunksize=1), strict=True))
     print("medians over ten seeds, in brackets p against the best of now")
     print(f"| game | paired with | {' | '.join(FIGURES)} |")
     print("|---|---|---|---|---|---|")
     p = 1.0
-    for game in GAMES:
+    for game in games:
         # The pair without a remedy is the same whatever the other has.
         plain = [results[game, next(iter(REMEDIES)), seed]["plain"] for seed in SEEDS]
         print(told(game, PLAIN, plain, plain))
@@ -111,9 +112,9 @@ def main() -> bool:
             print(told(game, name, found, plain))
             if (game, name) == ("rivalry", "hall of fame, shared"):
                 p = mannwhitneyu([row[0] for row in found], [row[0] for row in plain], alternative="greater").pvalue
-    print(f"arms_race: archive score with the hall of fame against none, p = {p:.2g} (under {LEVEL:g} is wanted)")
+    print(f"arms_race: archive score with the hall of fame and shared fitness, p = {p:.2g} (under {LEVEL:g} is wanted)")
     return bool(p < LEVEL)
 
 
 if __name__ == "__main__":
-    raise SystemExit(not main())
+    raise SystemExit(not main(sys.argv[1:] or [*GAMES]))

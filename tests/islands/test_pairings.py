@@ -128,6 +128,8 @@ def test_mixed_fills_up_from_where_there_are_more() -> None:
     now = Held(0, 1, tuple(shown(n, 9.0 - n) for n in (1, 2, 3)))
     past = tuple(shown(n) for n in (1, 11, 12, 13, 14))
     assert chosen(channel, held(now)) == ([1, 2, 3], 0)
+    four = Held(0, 1, tuple(shown(n, 9.0 - n) for n in (1, 2, 3, 4)))
+    assert chosen(partners(scheme="mixed", count=4, archive=3), held(four)) == ([1, 2, 3, 4], 0)
     assert chosen(channel, held(now, archives=(Past(0, past[:2]),))) == ([1, 2, 3, 11], 0)
     alone = Held(0, 1, (shown(1),))
     assert chosen(channel, held(alone, archives=(Past(0, past),))) == ([1, 11, 12, 13], 0)  # no more than the archive
