@@ -12,7 +12,7 @@ from islands.individual import Individual
 from islands.island import Island
 from islands.kinds.protocol import Accompanied, Biology, Facts
 from islands.migration.channel import Migrant
-from islands.selection import ranked
+from islands.selection import different, ranked
 from islands.state import State
 from islands.store import Store
 
@@ -20,15 +20,9 @@ from islands.store import Store
 def best_forms(island: Island[Any], deme: Sequence[Individual[Any]], count: int) -> list[Individual[Any]]:
     """Give the best members of different forms, best first; fewer where the deme has no more forms.
 
-    Members whose scores are equal to the last bit count as one form, since different genomes may grow into one: the
-    one of the lowest id stands for it. Of a kind without scores genotypes are compared.
+    See :func:`islands.selection.different`.
     """
-    forms: dict[object, Individual[Any]] = {}
-    for member in ranked(deme):
-        if len(forms) == count or member.fitness is None:
-            break
-        forms.setdefault(member.scores or island.biology.encode(member.genotype), member)
-    return list(forms.values())
+    return different(ranked(deme), count, island.biology)
 
 
 def written(

@@ -26,7 +26,7 @@ from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
 from islands.interventions.intervention import Intervention, Subject, concerning
 from islands.interventions.registry import changed, joined
-from islands.kinds.protocol import Biology
+from islands.kinds.protocol import Biology, is_ready
 from islands.migration.channel import Edge, Packet
 from islands.migration.departures import Bundle, Departures, Standing, bundled
 from islands.migration.gate import Adapters, Gate
@@ -34,7 +34,7 @@ from islands.migration.routes import Routes
 from islands.reception import Arrived, reason_of, received, rescored, steered_reason
 from islands.regime import Build, Regimes
 from islands.registrar import Registrar
-from islands.selection import ranked
+from islands.selection import different, ranked
 from islands.sharing import judged, survivors
 from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
@@ -107,6 +107,9 @@ class Island(Generic[G]):
         streams = EpochStreams(self._seed, self.spec.number, epoch)
         context = self._regimes.usual.contexts.alone
         registrar = self._registrar(epoch, 0, 0, context, streams)
+        if not is_ready(context.biology):
+            registrar.note("waiting", {"detail": "no parts of each name yet"})
+            return self._ended(State((), epoch, 0, 0), None, registrar, streams)
         deme = self._settled_anew(registrar, streams)
         diversity = self._summarise(deme, registrar, started)
         best = registrar.generations[-1].best
@@ -147,9 +150,16 @@ class Island(Generic[G]):
                 gate.enter(edge, packet)
             deme = gate.deme()
         diversity = None
-        for _ in range(generations):
+        if not registrar.counter and not deme and is_ready(registrar.context.biology):
+            deme = self._settled_anew(registrar, streams)
+            diversity = self._summarise(deme, registrar, started)
+            started, best = self._clock(), registrar.generations[-1].best
+        for _ in range(self._due(state, deme, generations, registrar)):
             registrar.generation += 1
-            deme = self._bred(deme, steered, registrar, streams)
+            if self._is_renewed(registrar.generation, steered):
+                deme, stagnant = self._renewed(deme, steered, registrar, streams), 0
+            else:
+                deme = self._bred(deme, steered, registrar, streams)
             diversity = self._summarise(deme, registrar, started)
             started, stagnant = self._clock(), stagnant + 1
             now = registrar.generations[-1].best
@@ -220,6 +230,26 @@ class Island(Generic[G]):
 
     # -- breeding ------------------------------------------------------------------------------------------------
 
+    def _due(self, state: State[G], deme: Deme[G], generations: int, registrar: Registrar[G]) -> int:
+        """Give how many generations are to be bred: none while the island waits for parts, or once it rests."""
+        if not deme and not is_ready(registrar.context.biology):
+            return 0
+        most = self.spec.epochs
+        return 0 if most is not None and state.generation >= most * generations else generations
+
+    def _is_renewed(self, generation: int, steered: Steered) -> bool:
+        """Tell whether a new run of the algorithm begins with this generation."""
+        every = self._regimes.of(steered).algorithm.restart
+        return every is not None and generation > 1 and (generation - 1) % every == 0
+
+    def _renewed(self, deme: Deme[G], steered: Steered, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
+        """Give a fresh population, in which the best different ones of before stay, and those who are locked."""
+        locked = [one for one in deme if one.id in steered.locked]
+        free = [one for one in ranked(deme, steered.promoted) if one.id not in steered.locked]
+        count = min(self._regimes.of(steered).algorithm.restart_keep, self.spec.population - len(locked))
+        kept = [*locked, *different(free, count, registrar.context.biology)]
+        return (*kept, *self._settled_anew(registrar, streams, len(kept)))
+
     def _bred(self, deme: Deme[G], steered: Steered, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
         """Give the deme of the next generation; where all have moved away, it is settled anew.
 
@@ -245,9 +275,9 @@ class Island(Generic[G]):
             kept, free = [own[one.id] for one in kept], [own[one.id] for one in free]
         return (*kept, *survivors(self._scheme, settings, places, free, children, steered.promoted))
 
-    def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
+    def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams, kept: int = 0) -> Deme[G]:
         biology, rng = registrar.context.biology, streams(Purpose.INITIAL)
-        births: list[Birth[G]] = [Birth(biology.random(rng), (), "random") for _ in range(self.spec.population)]
+        births: list[Birth[G]] = [Birth(biology.random(rng), (), "random") for _ in range(self.spec.population - kept)]
         return tuple([registrar.bear(birth) for birth in births])
 
     def _summarise(self, deme: Sequence[Individual[G]], registrar: Registrar[G], started: float) -> float | None:

@@ -91,6 +91,8 @@ class ChannelSettings(Settings):
     target: str | list[str] | None = Field(default=None, alias="to")
     join: Literal["all", "matching"] | None = None
     every: Count = 1
+    since: Annotated[int, Field(ge=0, le=10**9)] = 0
+    until: Count | None = None
     count: Count | None = None
     rate: Share | None = None
     select: Chooser = "best"
@@ -166,6 +168,9 @@ def completed(channel: ChannelSettings, where: str, epoch: int) -> ChannelSettin
         raise InputError(
             f"{where}.weight", "a probability above 0", "0, by which it never carries", "remove the channel"
         )
+    if channel.until is not None and channel.until <= channel.since:
+        got = f"{channel.until}, by which it never carries"
+        raise InputError(f"{where}.until", f"an epoch after 'since', {channel.since}", got)
     if channel.count is not None and channel.rate is not None:
         raise InputError(f"{where}.rate", "either 'count' or 'rate'", "both", "remove one of them")
     if channel.count is None and channel.rate is None:
@@ -226,6 +231,8 @@ def channel_of(channel: ChannelSettings, number: int, name: str, largest: int) -
         trigger=trigger,
         pairing=pairing,
         keep=channel.keep or 1,
+        since=channel.since,
+        until=channel.until,
     )
     if channel.kind == "components" and channel.keep is None:
         from dataclasses import replace

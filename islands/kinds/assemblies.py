@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Self, final
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
 from evaluators.plans import PLAN_CRITERIA, Brief, Layout, laid_out, resolve, score
@@ -27,7 +28,7 @@ from islands.kinds.meshes import mesh_text
 from islands.kinds.parts import DEMAND, demand_text, part_text, read_demand_text, read_part_text
 from islands.kinds.plans import write_plans
 from islands.kinds.protocol import Facts, Keep
-from islands.kinds.room import FRESH, SECONDS, part_of, shape_diversity
+from islands.kinds.room import FRESH, SECONDS, part_of, shape_distances, shape_diversity
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
@@ -221,6 +222,10 @@ class AssemblyBiology:
     def diversity(self, genotypes: Sequence[Assembly]) -> float | None:
         """Give the mean distance of the plans, room by room."""
         return shape_diversity([form_of(one, self._tiling) for one in genotypes])
+
+    def distances(self, genotypes: Sequence[Assembly]) -> NDArray[np.float64]:
+        """Give the distances of the plans, room by room."""
+        return shape_distances([form_of(one, self._tiling) for one in genotypes])
 
     def offer(self, genotype: Assembly, kind: ChannelKind) -> str:
         """Give a named part to components, a demand to partners, the solid that it fills to surroundings."""

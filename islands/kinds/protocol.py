@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from genome.settings import Settings
 from growth.protocol import Clock
@@ -146,6 +147,36 @@ class Assembling(Protocol[G]):
 
     def components(self, genotype: G) -> tuple[int, ...]:
         """Give the ids of the parts that a genotype is assembled from."""
+        ...
+
+
+@runtime_checkable
+class Waiting(Protocol):
+    """A biology that may lack something to draw genotypes from, as one that assembles parts does.
+
+    Attributes
+    ----------
+    ready
+        Whether it has all that it needs; until then its island waits, without members.
+    """
+
+    @property
+    def ready(self) -> bool:
+        """See above."""
+        ...
+
+
+def is_ready(biology: object) -> bool:
+    """Tell whether a biology can draw genotypes; one that never waits can."""
+    return biology.ready if isinstance(biology, Waiting) else True
+
+
+@runtime_checkable
+class Apart(Protocol[G_contra]):
+    """A biology that gives all distances at once, faster than by the ``diversity`` of each two."""
+
+    def distances(self, genotypes: Sequence[G_contra]) -> NDArray[np.float64]:
+        """Give (n, n) float64, what ``diversity`` gives of each two, 0 on the diagonal."""
         ...
 
 

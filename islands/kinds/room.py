@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Literal, final
 
 import numpy as np
+from numpy.typing import NDArray
 from pydantic import Field
 
 from evaluators.plans import Brief
@@ -128,7 +129,11 @@ class RoomBiology:
 
     def diversity(self, genotypes: Sequence[Room]) -> float | None:
         """Give the mean distance of the shapes."""
-        return shape_diversity([self._tilings_form(one) for one in genotypes])
+        return shape_diversity([form_of(one, self._tiling) for one in genotypes])
+
+    def distances(self, genotypes: Sequence[Room]) -> NDArray[np.float64]:
+        """Give the distances of the shapes."""
+        return shape_distances([form_of(one, self._tiling) for one in genotypes])
 
     def offer(self, genotype: Room, kind: ChannelKind) -> str:
         """Give a named part to components, the room to others."""
@@ -160,19 +165,20 @@ class RoomBiology:
                 found.append((1.0 - demand.met) * float(distances([form, Polyform(self._tiling, shape.cells)])[0, 1]))
         return min(found, default=0.0)
 
-    def _tilings_form(self, genotype: Room) -> Plan | Failure:
-        return form_of(genotype, self._tiling)
+
+def shape_distances(forms: Sequence[Plan | Failure]) -> NDArray[np.float64]:
+    """Give the distances of forms, (n, n), 0 to 1; what cannot be grown is as far from all as can be."""
+    grown = [place for place, one in enumerate(forms) if isinstance(one, Plan)]
+    found = np.ones((len(forms), len(forms)))
+    found[np.ix_(grown, grown)] = distances([one for one in forms if isinstance(one, Plan)])
+    np.fill_diagonal(found, 0.0)
+    return found
 
 
 def shape_diversity(forms: Sequence[Plan | Failure]) -> float | None:
-    """Give the mean distance of all pairs of forms, 0 to 1; what cannot be grown is as far from all as can be."""
+    """Give the mean distance of all pairs of forms, 0 to 1; ``None`` for fewer than two."""
     count = len(forms)
-    if count < 2:
-        return None
-    grown = [one for one in forms if isinstance(one, Plan)]
-    apart = float(distances(grown).sum()) / 2
-    pairs, known = count * (count - 1) // 2, len(grown) * (len(grown) - 1) // 2
-    return (apart + pairs - known) / pairs
+    return float(shape_distances(forms).sum()) / (count * (count - 1)) if count > 1 else None
 
 
 def part_of(spec: IslandSpec) -> str:

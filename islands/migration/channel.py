@@ -19,7 +19,7 @@ from typing import Literal, NamedTuple
 from islands.individual import Scores
 
 ChannelKind = Literal["migrants", "partners", "components", "surroundings"]
-Chooser = Literal["best", "tournament", "random", "roulette", "diverse"]
+Chooser = Literal["best", "tournament", "random", "roulette", "diverse", "spread"]
 Replacer = Literal["worst", "random", "oldest", "similar", "tournament"]
 PairingScheme = Literal["best", "random", "several", "archive", "mixed"]
 PairingScore = Literal["mean", "best", "worst"]
@@ -107,6 +107,8 @@ class Channel:
         Of ``partners`` alone.
     keep
         Of ``components`` alone: how many parts of each source a target keeps, the newest first.
+    since, until
+        It carries at the ends of epochs from ``since`` on, and before ``until``; always without one.
     """
 
     number: int
@@ -124,9 +126,13 @@ class Channel:
     trigger: Trigger | None = None
     pairing: Pairing | None = None
     keep: int = 1
+    since: int = 0
+    until: int | None = None
 
     def carries(self, epoch: int) -> bool:
         """Tell whether it carries at the end of this epoch, its trigger aside."""
+        if epoch < self.since or (self.until is not None and epoch >= self.until):
+            return False
         return epoch % self.every == 0 and (epoch > 0 or self.kind != "migrants")
 
     def size(self, population: int) -> int:
