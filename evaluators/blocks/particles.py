@@ -8,7 +8,7 @@ import numpy as np
 
 from evaluators.blocks.rays import cells_at, hits, spread
 from evaluators.blocks.structure import Structure
-from growth.blocks.body import BOUNDARY
+from growth.blocks.body import BOUNDARY, Body
 
 COUNT: Final = 4096
 """How many particles are sent."""
@@ -31,7 +31,11 @@ def particles(structure: Structure) -> float:
         In squares of the lattice's unit, 0 or more. A convex body without boundary in the way offers a quarter of its
         surface (Cauchy): 1.5 for a cube. 0 without blocks.
     """
-    body = structure.body
+    return caught(structure.body)
+
+
+def caught(body: Body) -> float:
+    """Give the same of a body whose load does not matter."""
     built = body.cells[body.systems != BOUNDARY]
     if not len(built):
         return 0.0
@@ -57,5 +61,5 @@ def particles(structure: Structure) -> float:
     away = ((ends - starts) / towards).min(axis=1) + 0.5  # out of the walls that may stand around the body
     starts += away[:, np.newaxis] * towards
     met = hits(body, starts, cells_at(starts, body.lattice), -towards)
-    caught = (met >= 0) & (body.systems[met] != BOUNDARY)
-    return float(section[caught].sum() / COUNT)
+    stopped = (met >= 0) & (body.systems[met] != BOUNDARY)
+    return float(section[stopped].sum() / COUNT)

@@ -47,7 +47,11 @@ def sun(structure: Structure) -> float:
     float
         Below 1, and below 0 for bodies that shade much and are little lit; 0 without exposed faces.
     """
-    body = structure.body
+    return exposure(structure.body)
+
+
+def exposure(body: Body) -> float:
+    """Give the same of a body whose load does not matter."""
     centres, beyond, normals = open_faces(body)
     if not len(centres):
         return 0.0

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final, Literal, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from evaluators.symbiosis.settings import SymbiosisSettings
+from evaluators.symbiosis.surroundings import Surroundings, surroundings
 from growth.blocks.lattice import Lattice
 
 Cells = NDArray[np.int64]
@@ -19,7 +21,7 @@ ROLES: Final[tuple[Role, ...]] = ("enclosure", "space", "route")
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Symbiosis:
     """Partners of several species in one space; each species' cells are distinct, two species may share a cell.
 
@@ -38,3 +40,8 @@ class Symbiosis:
     space: Cells
     route: Cells
     settings: SymbiosisSettings
+
+    @cached_property
+    def surroundings(self) -> Surroundings:
+        """Give what is measured once and used by several criteria; ValueError where partners span too large a box."""
+        return surroundings(self)
