@@ -3,8 +3,8 @@
 ``python -m benchmarks.houses_findings [rooms] [house] [flat]`` runs, with seeds 1 to 10, two at a time (some ten
 minutes):
 
-- ``rooms``: the paper's eight rooms, by its own way (crossover alone, fresh runs) and with mutation: how many seeds reach
-  the least perimeter and four corners, and after how many evaluations;
+- ``rooms``: the paper's eight rooms, by its own way (crossover alone, fresh runs) and with mutation: how many seeds
+  reach the least perimeter and four corners, and after how many evaluations;
 - ``house``: ``experiments/house.yaml``: how many seeds meet all adjacencies, and after how many evaluations in all;
 - ``flat``: the same house as one genotype of 87 genes, with as many evaluations.
 """
