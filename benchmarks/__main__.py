@@ -8,6 +8,8 @@ import sys
 NAMES = (
     "growth",
     "blocks_growth",
+    "symbiosis_measures",
+    "space_syntax",
     "bnf_mapping",
     "mesh_queries",
     "start",
