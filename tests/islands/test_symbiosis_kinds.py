@@ -109,10 +109,12 @@ def test_cells_survive_their_text(lattice) -> None:
 
 
 BAD = [
-    "", "[]", '{"role":"space","lattice":"cubic","cells":[]}', '{"role":"space","lattice":"isospatial","cells":[[0,0,0]]}',
+    "", "[]", '{"role":"space","lattice":"cubic","cells":[]}',
+    '{"role":"space","lattice":"isospatial","cells":[[0,0,0]]}',
     '{"role":"roof","lattice":"cubic","cells":[[0,0,0]]}', '{"role":"space","lattice":"cubic","cells":[[0,0,0.5]]}',
     '{"role":"space","lattice":"cubic","cells":[[0,0]]}', '{"role":"space","lattice":"cubic","cells":[[0,0,true]]}',
-    '{"role":"space","lattice":"cubic","cells":[[0,0,9999999]]}', '{"role":"space","lattice":"cubic","cells":[[0,0,0]],"a":1}',
+    '{"role":"space","lattice":"cubic","cells":[[0,0,9999999]]}',
+    '{"role":"space","lattice":"cubic","cells":[[0,0,0]],"a":1}',
 ]  # fmt: skip
 
 
@@ -166,7 +168,7 @@ def test_a_site_keeps_cells_within_its_outline_and_storeys() -> None:
 
 
 SITES = [
-    ({"outline": [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8]]}, (0, 0, 0), "growth.site.outline: expected an outline that holds"),
+    ({"outline": [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8]]}, (0, 0, 0), "site.outline: expected an outline that holds"),
     ({"outline": [[2, 2], [4, 2], [4, 4]]}, (0, 0, 0), r"growth.start: expected a cell of the site, got \[0, 0, 0\]"),
     ({"environment": {"boundaries": [{"shape": "sphere", "at": [0, 0, 0], "radius": 2}]}}, (0, 0, 1), "growth.start"),
     ({"environment": "nowhere.yaml"}, (0, 0, 0), "growth.site.environment: expected an environment file"),

@@ -62,10 +62,10 @@ def house(**changes: Any) -> dict[str, Any]:
         "epochs": 3,
         "epoch": 2,
         "backend": "inline",
-        "defaults": {"count": 2, "population": 6, "growth": {"max_blocks": 60}, "fitness": goals},
+        "defaults": {"count": 2, "population": 6, "growth": {"max_blocks": 60}},
         "islands": {
-            "walls": {"kind": "enclosure"},
-            "rooms": {"kind": "space", "growth": {"least": 3}},
+            "walls": {"kind": "enclosure", "fitness": goals},
+            "rooms": {"kind": "space", "growth": {"least": 3}, "fitness": goals},
         },
         "channels": [
             {"topology": "ring", "among": "walls"},
