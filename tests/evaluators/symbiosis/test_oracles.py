@@ -158,6 +158,10 @@ class TestRoute:
         assert scores([], five, [(x, 0, 0) for x in range(3, 9)])["route_joins"] == 1
         assert scores([], five)["route_joins"] == 3 / 5
 
+    def test_the_main_part_touches_most_cells_not_most_often(self):
+        often, most = [(1, 0, 0), (1, 1, 0), (1, -1, 0)], [(10, 0, 0)]
+        assert scores([], [(0, 0, 0), (9, 0, 0), (11, 0, 0)], [*often, *most])["route_joins"] == 2 / 3
+
     def test_of_equals_the_first_that_grew(self):
         two = [(0, 0, 0), (9, 0, 0)]
         walls = [(10, 0, 0)]
