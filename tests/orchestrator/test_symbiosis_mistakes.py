@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -89,4 +90,13 @@ def test_what_is_right_is_taken(tmp_path) -> None:
     assert CliRunner().invoke(main, ["check", str(write(tmp_path, within))]).exit_code == 0
     both = channelled({"kind": "partners", "from": ["rooms", "walls"], "to": "ways"}, ways=ROUTE)
     result = CliRunner().invoke(main, ["check", str(write(tmp_path, both))])
+    assert result.exit_code == 0, result.stderr
+
+
+EXPERIMENTS = Path(__file__).resolve().parents[2] / "experiments"
+
+
+@pytest.mark.parametrize("name", ["enclosure_space", "isospatial", "jackson", "parasite", "route"])
+def test_the_shipped_experiments_are_right(name) -> None:
+    result = CliRunner().invoke(main, ["check", str(EXPERIMENTS / f"{name}.yaml")])
     assert result.exit_code == 0, result.stderr
