@@ -12,10 +12,9 @@ from typing import Final, Generic, TypeVar, final
 
 from genome.mishaps import let_pass, told
 from islands.holdings import NOTHING, Holdings, everything
-from islands.individual import Evaluation
 from islands.kinds.protocol import Assembling, Biology, Situated, Symbiotic
 from islands.migration.channel import Channel, Migrant
-from islands.pairings import Sides, scored_in_pairs, sides_of
+from islands.pairings import Scored, Sides, scored_in_pairs, sides_of
 from islands.scoring import scored
 from islands.streams import EpochStreams
 
@@ -52,13 +51,11 @@ class Context(Generic[G]):
         self.company: Final = company
         self._assembling: Final[Assembling[G] | None] = biology if isinstance(biology, Assembling) else None
 
-    def score(
-        self, genotype: G, streams: EpochStreams, pulse: Callable[[], None]
-    ) -> tuple[Evaluation, tuple[int, ...]]:
-        """Score a genotype; give what came of it, and the ids of the partners it was scored with."""
+    def score(self, genotype: G, streams: EpochStreams, pulse: Callable[[], None]) -> Scored:
+        """Score a genotype, alone or with the partners of its pairings."""
         if self.company is None or self.symbiotic is None:
             pulse()
-            return scored(self.biology, genotype), ()
+            return Scored(scored(self.biology, genotype))
         return scored_in_pairs(self.symbiotic, genotype, self.company, streams, pulse)
 
     def components(self, genotype: G) -> tuple[int, ...]:

@@ -6,7 +6,8 @@ Only the clock's columns differ from run to run.
 
 An epoch goes so: interventions that begin with it change goals, rates and members; what channels of partners,
 components and surroundings bring is taken in, and where any of that changes how members score, the deme is scored
-again; those who are inserted join, then migrants; then generations are bred; then each edge's packet is made.
+again; those who are inserted join, then migrants; then generations are bred; then what is watched is measured, and
+each edge's packet is made.
 """
 
 from __future__ import annotations
@@ -34,10 +35,12 @@ from islands.reception import Arrived, reason_of, received, rescored, steered_re
 from islands.regime import Build, Regimes
 from islands.registrar import Registrar
 from islands.selection import ranked
+from islands.sharing import judged, survivors
 from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
 from islands.steered import Steered
 from islands.streams import EpochStreams, Purpose
+from islands.watch import Watcher
 
 __all__ = ["Advance", "Island", "Pulse", "State"]
 
@@ -93,6 +96,7 @@ class Island(Generic[G]):
         self._scheme: Final = SCHEMES[spec.algorithm.name]
         into = routes.channels_into(spec.number)
         self._regimes: Final = Regimes(spec, biology, into, build or Biologies(clock))
+        self._watcher: Final[Watcher[G]] = Watcher(into, pulse)
         # Edges as they are looked up, and the routes' own tuple that they were made of.
         self._doors: tuple[tuple[Edge, ...], Mapping[tuple[int, int], Edge]] = ((), {})
         self._bundles: tuple[tuple[Edge, ...], tuple[Bundle, ...]] = ((), ())
@@ -102,7 +106,7 @@ class Island(Generic[G]):
         started = self._clock()
         streams = EpochStreams(self._seed, self.spec.number, epoch)
         context = self._regimes.usual.contexts.alone
-        registrar = Registrar(self.spec.number, epoch, 0, 0, context, streams, self._pulse)
+        registrar = self._registrar(epoch, 0, 0, context, streams)
         deme = self._settled_anew(registrar, streams)
         diversity = self._summarise(deme, registrar, started)
         best = registrar.generations[-1].best
@@ -132,7 +136,7 @@ class Island(Generic[G]):
         number, epoch = self.spec.number, state.epoch + 1
         streams = EpochStreams(self._seed, number, epoch)
         context = self._regimes.of(state.steered).contexts.alone
-        registrar = Registrar(number, epoch, state.generation, state.counter, context, streams, self._pulse)
+        registrar = self._registrar(epoch, state.generation, state.counter, context, streams)
         own = concerning(interventions, self.spec.name)
         migrants, others = self._sorted(arrivals)
         subject, held, best = self._settled(state, own, others, registrar)
@@ -151,7 +155,10 @@ class Island(Generic[G]):
             now = registrar.generations[-1].best
             if now is not None and (best is None or now > best):
                 best, stagnant = now, 0
-        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
+        watched, details = self._watcher.look(deme, registrar.context, held, state.watched)
+        for detail in details:
+            registrar.note("coevolution", detail)
+        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered, watched)
         return self._ended(after, diversity, registrar, streams)
 
     def context(self, state: State[G]) -> Context[G]:
@@ -161,6 +168,12 @@ class Island(Generic[G]):
             return usual.alone
         streams = EpochStreams(self._seed, self.spec.number, state.epoch)
         return usual.of(state.held, streams, self._routes.live(self.spec.number, state.epoch - 1))
+
+    def _registrar(
+        self, epoch: int, generation: int, counter: int, context: Context[G], streams: EpochStreams
+    ) -> Registrar[G]:
+        sharing = self.spec.algorithm.sharing != "none"
+        return Registrar(self.spec.number, epoch, generation, counter, context, streams, self._pulse, sharing=sharing)
 
     # -- arriving ------------------------------------------------------------------------------------------------
 
@@ -215,7 +228,7 @@ class Island(Generic[G]):
         if not deme:
             return self._settled_anew(registrar, streams)
         settings = self._regimes.of(steered).algorithm
-        order = free = ranked(deme, steered.promoted)
+        order = free = ranked(judged(deme, settings), steered.promoted)
         kept: list[Individual[G]] = []
         if steered.locked:
             kept = [one for one in order if one.id in steered.locked]
@@ -227,7 +240,10 @@ class Island(Generic[G]):
         breeders = self._scheme.breeders(settings, self.spec.population, order)
         births = breed(registrar.context.biology, breeders, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
-        return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
+        if settings.sharing != "none":
+            own = {one.id: one for one in deme}
+            kept, free = [own[one.id] for one in kept], [own[one.id] for one in free]
+        return (*kept, *survivors(self._scheme, settings, places, free, children, steered.promoted))
 
     def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
         biology, rng = registrar.context.biology, streams(Purpose.INITIAL)
@@ -264,6 +280,6 @@ class Island(Generic[G]):
         steered = state.steered.among(one.id for one in deme)
         after = State(
             deme, state.epoch, state.generation, state.counter, state.best, state.stagnant, state.held,
-            context.scoring, steered,
+            context.scoring, steered, state.watched,
         )  # fmt: skip
         return Advance(after, packets, registrar.records())

@@ -27,17 +27,21 @@ OF_KIND: Final[Mapping[str, ChannelKind]] = {
     "pairings": "partners",
     "score": "partners",
     "archive": "partners",
+    "measures": "partners",
     "keep": "components",
 }
 """Keys that belong to channels of one kind alone."""
 
 DEFAULTS: Final[Mapping[ChannelKind, Mapping[str, Any]]] = {
     "migrants": {"replace": "worst", "accept": "always", "mode": "copy"},
-    "partners": {"pairing": "best", "score": "mean", "archive": 0},
+    "partners": {"pairing": "best", "score": "mean", "archive": 0, "measures": False},
     "components": {},
     "surroundings": {},
 }
 """What a channel of a kind has where nothing is said; the rest depends on other keys."""
+
+USUAL_PAIRINGS: Final[Mapping[PairingScheme, int]] = {"best": 1, "random": 1, "several": 2, "archive": 2, "mixed": 3}
+LEAST_MIXED: Final = 3
 
 OF_FORM: Final = {"among": "topology", "unreached": "topology", "join": "from"}
 """Keys that belong to channels of a topology, or to those from islands to others."""
@@ -102,6 +106,7 @@ class ChannelSettings(Settings):
     pairings: Count | None = None
     score: PairingScore | None = None
     archive: Annotated[int, Field(ge=0, le=1_000_000)] | None = None
+    measures: bool | None = None
     keep: Count | None = None
 
     @field_validator("among", "source", "target", mode="before")
@@ -203,6 +208,7 @@ def channel_of(channel: ChannelSettings, number: int, name: str, largest: int) -
             count=channel.pairings or 1,
             score=channel.score or "mean",
             archive=channel.archive or 0,
+            measures=channel.measures or False,
         )
     made = Channel(
         number=number,
@@ -255,14 +261,20 @@ def _interval(channel: ChannelSettings, generations: int, where: str, epoch: int
 
 def _paired(channel: ChannelSettings, where: str) -> ChannelSettings:
     scheme, archive = channel.pairing or "best", channel.archive or 0
-    pairings = channel.pairings or (2 if scheme in ("several", "archive") else 1)
+    pairings = channel.pairings or USUAL_PAIRINGS[scheme]
     if scheme == "best" and pairings > 1:
-        remedy = "take pairing: several, random or archive"
+        remedy = "take pairing: several, random, archive or mixed"
         raise InputError(f"{where}.pairings", "1 with pairing: best", str(pairings), remedy)
-    if scheme == "archive" and archive < max(1, pairings - 1):
-        least = max(1, pairings - 1)
-        expected = f"an archive of {least} or more for pairing: archive with pairings: {pairings}"
+    if scheme == "mixed" and pairings < LEAST_MIXED:
+        expected = f"{LEAST_MIXED} or more with pairing: mixed: the best, another one shown, and a past one"
+        raise InputError(f"{where}.pairings", expected, str(pairings), "take more, or pairing: archive")
+    least = {"archive": max(1, pairings - 1), "mixed": (pairings - 1) // 2}.get(scheme, 0)
+    if archive < least:
+        expected = f"an archive of {least} or more for pairing: {scheme} with pairings: {pairings}"
         raise InputError(f"{where}.archive", expected, str(archive), f"add archive: {max(least, 10)}")
+    if channel.measures and not archive:
+        remedy = "add archive: 10"
+        raise InputError(f"{where}.measures", "an archive to measure the best against", "none", remedy)
     return channel.model_copy(update={"pairings": pairings})
 
 

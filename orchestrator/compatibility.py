@@ -167,8 +167,10 @@ class Compatibility:
         self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str
     ) -> None:
         """Refuse more pairings than there are partners shown, or ever can be where edges are drawn anew."""
-        if settings.kind != "partners" or settings.pairing not in ("several", "random"):
+        if settings.kind != "partners" or settings.pairing not in ("several", "random", "mixed"):
             return
+        pairings = settings.pairings or 1
+        wanted = 1 + pairings // 2 if settings.pairing == "mixed" else pairings
         shown: dict[int, int] = defaultdict(int)
         for edge in edges:
             shown[edge.target] += edge.channel.size(self._islands[edge.source].population)
@@ -177,9 +179,12 @@ class Compatibility:
             sizes = {number: redrawn.channel.size(self._islands[number].population) for number, _ in redrawn.members}
             shown.update({number: sum(sizes.values()) - size for number, size in sizes.items()})
         for target, count in shown.items():
-            if (settings.pairings or 1) > count:
+            if wanted > count:
                 expected = f"at most {count}, as many as are shown to {self._islands[target].name}"
-                raise InputError(f"{where}.pairings", expected, str(settings.pairings), "raise 'count'")
+                got = str(pairings)
+                if settings.pairing == "mixed":
+                    got += f", of which {wanted} are with some of those shown"
+                raise InputError(f"{where}.pairings", expected, got, "raise 'count'")
 
 
 def _check_size(channel: Channel, source: IslandSpec, target: IslandSpec, where: str) -> None:

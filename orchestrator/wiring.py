@@ -70,6 +70,7 @@ def wire(experiment: Experiment, islands: Sequence[IslandSpec], source: str, bas
     fits = Compatibility(islands)
     wired = wired_channels(experiment, islands, source, base, fits)
     _refuse_needy(wired, islands, fits)
+    _refuse_sharing_alone(wired, islands)
     refuse_emptied(wired, islands)
     _refuse_unreached(wired, islands, source)
     _refuse_unfed(wired, islands, fits)
@@ -200,6 +201,20 @@ def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: C
         expected = f"a channel of kind {kind} to {spec.name}, which it needs"
         remedy = f"{kind} missing: add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels'"
         raise InputError(spec.where("kind"), expected, "none", remedy)
+
+
+def _refuse_sharing_alone(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:
+    """Refuse an island that is to share fitness, and has no partners to divide, or but one."""
+    most: dict[int, int] = defaultdict(int)
+    for one in wired:
+        if one.channel.pairing is not None:
+            for number in _entered(one):
+                most[number] = max(most[number], one.channel.pairing.count)
+    for spec in islands:
+        if spec.algorithm.sharing != "none" and most[spec.number] < 2:
+            got = f"{most[spec.number] or 'no channel of partners'} to {spec.name}"
+            remedy = "it is partners that members share: add {kind: partners, pairing: several}, or take sharing: none"
+            raise InputError(spec.where("algorithm", "sharing"), "two or more pairings to share by", got, remedy)
 
 
 def refuse_emptied(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:

@@ -21,7 +21,7 @@ from islands.individual import Scores
 ChannelKind = Literal["migrants", "partners", "components", "surroundings"]
 Chooser = Literal["best", "tournament", "random", "roulette", "diverse"]
 Replacer = Literal["worst", "random", "oldest", "similar", "tournament"]
-PairingScheme = Literal["best", "random", "several", "archive"]
+PairingScheme = Literal["best", "random", "several", "archive", "mixed"]
 PairingScore = Literal["mean", "best", "worst"]
 
 
@@ -50,7 +50,8 @@ class Pairing:
     scheme
         ``best``: with the best shown. ``several``: with the ``count`` best shown. ``random``: with ``count`` of those
         shown, drawn for each member. ``archive``: with the best shown and ``count`` - 1 of the archive, drawn for each
-        epoch.
+        epoch. ``mixed``: with the best shown, some of the others shown and some of the archive, drawn for each epoch:
+        half of the ``count`` - 1 from each, the odd one from those shown.
     count
         Pairings of one member.
     score
@@ -58,12 +59,16 @@ class Pairing:
     archive
         How many past representatives are kept besides the best one shown now: the best one of each epoch before; the
         oldest go first.
+    measures
+        Whether the log tells at each epoch's end how the target's best fares against the archive
+        (:mod:`islands.watch`).
     """
 
     scheme: PairingScheme = "best"
     count: int = 1
     score: PairingScore = "mean"
     archive: int = 0
+    measures: bool = False
 
 
 @dataclass(frozen=True, slots=True)
