@@ -8,9 +8,9 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, model_validator
 
-from evaluators.plans.outline import Outline, as_outline
 from genome.errors import InputError
 from genome.settings import Settings, describe, near
+from growth.outline import Outline, as_outline
 from growth.polyforms.tiling import TILINGS, Tiling
 
 Side = Literal["north", "east", "south", "west"]

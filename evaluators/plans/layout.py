@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from evaluators.plans import _kernels
 from evaluators.plans.brief import Brief, Side
-from evaluators.plans.outline import Outline
+from growth.outline import Outline
 from growth.polyforms.polyform import Plan
 from growth.polyforms.tiling import TILINGS, Tiling
 

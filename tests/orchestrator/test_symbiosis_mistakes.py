@@ -57,7 +57,9 @@ CASES: dict[str, tuple[dict[str, Any], str, str]] = {
         grown(lattice="isospatial"), "channels.2", "which takes space on isospatial or route on isospatial"
     ),
     "an outline that crosses itself": (
-        grown(site={"outline": [[0, 0], [2, 2], [2, 0], [0, 2]]}), "growth.site.outline", "one whose sides 1 and 3 meet"
+        grown(site={"outline": [[0, 0], [2, 2], [2, 0], [0, 2]]}),
+        "growth.site.outline",
+        "side 1 ([0, 0] to [2, 2]) meets side 3",
     ),
     "a site with no cell": (
         grown(site={"outline": [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9]]}), "growth.site.outline", "an outline that holds"

@@ -1,18 +1,15 @@
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from evaluators.plans import PLAN_CRITERIA, Brief, Layout, laid_out, score
 from evaluators.plans.layout import facing, ground
-from evaluators.plans.outline import Outline, as_outline
 from genome.errors import InputError
 from genome.settings import validated
+from growth.outline import Outline
 from growth.polyforms import CUBE, HEXAGON, SQUARE, TILINGS, TRIANGLE, Plan
 
 LETTERS = "abcdefgh"
@@ -163,21 +160,6 @@ def test_edges_of_other_cells_face_sides_by_their_normals() -> None:
 def test_wrong_briefs_are_refused(more: dict[str, Any], message: str) -> None:
     with pytest.raises(InputError, match=message):
         judged(ROW, **more)
-
-
-@given(points=st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=3, max_size=7))
-def test_outlines_taken_are_simple_and_hold_what_their_area_says(points: list[tuple[int, int]]) -> None:
-    try:
-        outline = as_outline([list(one) for one in points])
-    except InputError:
-        return
-    assert isinstance(outline, Outline)
-    # Pick's theorem holds for simple polygons alone.
-    grid = np.array([(x, y) for x in range(-4, 5) for y in range(-4, 5)], dtype=float)
-    held = int(outline.holds(grid).sum())
-    ring = [*points[1:], points[0]]
-    rim = sum(math.gcd(bx - ax, by - ay) for (ax, ay), (bx, by) in zip(points, ring, strict=True))
-    assert outline.area == held - rim + rim / 2 - 1
 
 
 def test_cells_of_all_tilings_lie_in_an_outline_with_all_corners() -> None:

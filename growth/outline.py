@@ -1,4 +1,4 @@
-"""A site's outline: a simple polygon, and which cells lie in it."""
+"""Outlines of sites: simple polygons, and which points lie in them."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Outline:
     Attributes
     ----------
     points
-        Its corners in order, in lengths of a cell's edge; the last is joined to the first.
+        Its corners in order, in either sense; the last is joined to the first.
     """
 
     points: tuple[Point, ...]
@@ -105,12 +105,12 @@ def _check_simple(points: Sequence[Point]) -> None:
     sides = list(zip(points, (*points[1:], points[0]), strict=True))
     for first, second in sides:
         if first == second:
-            raise InputError("", "corners that differ from the next", f"{list(first)} twice in a row")
+            raise InputError("", "corners that differ from the next", f"{list(first)} twice in a row", "remove one")
     for (i, one), (j, other) in combinations(enumerate(sides), 2):
         neighbours = j - i == 1 or j - i == len(sides) - 1
         if _meet(*one, *other, neighbours=neighbours):
             got = f"side {i + 1} ({_said(one)}) meets side {j + 1} ({_said(other)})"
-            raise InputError("", "an outline that does not cross or touch itself", got)
+            raise InputError("", "an outline that does not cross or touch itself", got, "list its corners in order")
     if abs(_twice_area(points)) <= CLOSE:
         raise InputError("", "an outline that encloses something", "an area of 0")
 
