@@ -17,6 +17,7 @@ COMMANDS: Final = {
     "validate": "Reproduce published behaviour of island models.",
     "show": "Show how a run stands.",
     "steer": "Intervene in a running run.",
+    "chart": "Draw a score over a run's generations.",
     "query": "Put an SQL query to a run's log.",
     "digest": "Give one hash of what happened in a run.",
     "replay": "Regrow a logged individual and score it again.",
