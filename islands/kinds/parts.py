@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any, Final, NamedTuple
 
 from genome.errors import InputError
@@ -17,6 +18,9 @@ from genome.polyform import Assembly, Room, decode_any, encode
 from genome.settings import describe
 
 Form = Room | Assembly
+
+REMEMBERED: Final = 1024
+"""Texts whose meaning is kept: a demand is looked at for each member, and parts stay for epochs."""
 
 DEMAND: Final = "demand"
 """What kinds that give or take demands call them."""
@@ -42,6 +46,7 @@ def part_text(name: str, genotype: Form) -> str:
     return json.dumps({"name": name, "genotype": json.loads(encode(genotype))}, separators=(",", ":"))
 
 
+@lru_cache(maxsize=REMEMBERED)
 def read_part_text(text: str) -> tuple[str, Form]:
     """Read a part: its name and its genotype.
 
@@ -62,6 +67,7 @@ def demand_text(met: float, parts: Mapping[str, Form]) -> str:
     return json.dumps({"met": met, "parts": told}, separators=(",", ":"), allow_nan=False)
 
 
+@lru_cache(maxsize=REMEMBERED)
 def read_demand_text(text: str) -> Demand:
     """Read a demand; as :func:`read_part_text`."""
     match _loaded(text):
