@@ -79,26 +79,35 @@ def grow_cells(
         ``clock``, or ``empty`` where no cell could be placed.
     """
     growth = growth or CellGrowth()
-    cells = _drawn(system, growth, growth.cells, clock, seed)
+    # Cells that are left out cost nothing: of those that a turtle goes through its word's length is the bound.
+    most = growth.max_blocks if free is None else max(growth.max_blocks, growth.max_symbols)
+    cells = _drawn(system, growth, growth.cells, clock, seed, most)
     if isinstance(cells, Failure):
         return cells
     placed = cells + np.array(growth.start, dtype=np.int64)
     if free is not None:
         placed = np.ascontiguousarray(placed[free(placed)])
+    if len(placed) > growth.max_blocks:
+        return _too_many(growth)
     if not len(placed):
         return Failure("empty", f"none of {len(cells)} cells lies where cells may be placed")
     return placed
 
 
-def _drawn(system: LSystem, budget: BlockBudget, lattice: Lattice, clock: Clock, seed: int | None) -> Cells | Failure:
-    """Let the turtle read an L-system's last word, from a block at the origin on."""
+def _drawn(
+    system: LSystem, budget: BlockBudget, lattice: Lattice, clock: Clock, seed: int | None, most: int | None = None
+) -> Cells | Failure:
+    """Let the turtle read an L-system's last word, from a block at the origin on, for so many blocks at most."""
+    most = budget.max_blocks if most is None else most
     word = derive(system, budget, clock, seed)
     if isinstance(word, Failure):
         return word
-    cells, count = _kernels.walk(word, lattice.offsets, turns_of(lattice), lattice.heading, budget.max_blocks)
-    if count > budget.max_blocks:
-        return Failure("budget", f"more blocks than the {budget.max_blocks} that max_blocks allows")
-    return cells
+    cells, count = _kernels.walk(word, lattice.offsets, turns_of(lattice), lattice.heading, most)
+    return _too_many(budget) if count > most else cells
+
+
+def _too_many(budget: BlockBudget) -> Failure:
+    return Failure("budget", f"more blocks than the {budget.max_blocks} that max_blocks allows")
 
 
 def derive(

@@ -66,21 +66,27 @@ class Site:
             held[held] &= ~self.environment.inside(cells[held])
         return held
 
-    def has_room(self, lattice: Lattice, level: int) -> bool:
-        """Tell whether the outline holds any cell of a level; an outline too large to look at does."""
+    def capacity(self, lattice: Lattice) -> int | None:
+        """Count the cells that the site holds, solids aside; ``None`` where they have no end or are too many.
+
+        An outline that holds no centre of a cell has none on any storey.
+        """
         if self.outline is None:
-            return True
+            return None
         points = np.array(self.outline.points)
         low, high = np.floor(points.min(axis=0)), np.ceil(points.max(axis=0))
         if np.prod(high - low + 1) > MOST_LOOKED_AT:
-            return True
+            return None
         x, y = np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(low, high, strict=True)), indexing="ij")
         centres = np.stack([x.reshape(-1), y.reshape(-1)], axis=1)
-        held = self.outline.holds(centres)
-        floors = 2 if self.levels is None or self.levels[1] > self.levels[0] else 1
-        if lattice.parity and floors == 1:
-            held &= (centres.sum(axis=1) + level) % 2 == 0
-        return bool(held.any())
+        centres = centres[self.outline.holds(centres)]
+        if self.levels is None:
+            return None if len(centres) else 0
+        floors = 1 if lattice.name == "square" else self.levels[1] - self.levels[0] + 1
+        if not lattice.parity:
+            return len(centres) * floors
+        odd = int(((centres.sum(axis=1) + self.levels[0]) % 2).sum())
+        return (len(centres) - odd) * ((floors + 1) // 2) + odd * (floors // 2)
 
 
 def site_of(settings: OutlineSettings, level: int, environment: Environment) -> Site:

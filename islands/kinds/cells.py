@@ -10,7 +10,7 @@ import numpy as np
 from evaluators.symbiosis import ROLES, Role
 from genome.errors import InputError
 from genome.settings import describe
-from growth.blocks.lattice import Ints, Lattice
+from growth.blocks.lattice import SQUARE, Ints, Lattice
 from growth.blocks.settings import FARTHEST
 from islands.kinds.bodies import plain
 
@@ -34,8 +34,9 @@ def read_cells_text(text: str, lattice: Lattice) -> tuple[Role, Ints]:
             role in ROLES and name == lattice.name and not more and _are_cells(rows)
         ):
             cells = np.array(rows, dtype=np.int64)
-            cells.flags.writeable = False
-            return role, cells
+            if _are_of(lattice, cells):
+                cells.flags.writeable = False
+                return role, cells
     raise InputError("partner", f"cells of a species on the lattice {lattice.name}", describe(text))
 
 
@@ -45,3 +46,12 @@ def _are_cells(rows: list[Any]) -> bool:
         isinstance(row, list) and len(row) == 3 and all(type(one) is int and abs(one) <= 2 * FARTHEST for one in row)
         for row in rows
     )
+
+
+def _are_of(lattice: Lattice, cells: Ints) -> bool:
+    """Tell whether a lattice has these cells, and each is there once."""
+    if lattice.parity and (cells.sum(axis=1) % 2).any():
+        return False
+    if lattice is SQUARE and cells[:, 2].any():
+        return False
+    return len(np.unique(cells, axis=0)) == len(cells)

@@ -209,13 +209,23 @@ def _site(spec: IslandSpec, growth: SpeciesGrowth, environment: Environment | No
     InputError
         When it has no cell, or by itself does not hold the cell in which growth begins.
     """
+    if growth.least > growth.max_blocks:
+        got = f"{growth.least}, more than the {growth.max_blocks} of max_blocks"
+        raise InputError(spec.where("growth", "least"), "a number of cells that max_blocks allows", got)
     level = growth.start[2]
     site = site_of(growth.site, level, _environment(spec, growth) if environment is None else environment)
     if environment is not None:
         return site
-    if not site.has_room(growth.cells, level):
+    room = site.capacity(growth.cells)
+    if room == 0:
         where = spec.where("growth", "site", "outline")
         raise InputError(where, "an outline that holds a cell", "one that holds none", "one cell is one unit wide")
+    if room is not None and room < growth.least:
+        where = spec.where("growth", "site")
+        remedy = "enlarge the outline, add floors, or lower least"
+        raise InputError(
+            where, f"a site that holds the {growth.least} cells of 'least'", f"one of {room} cells", remedy
+        )
     if not site.holds(np.array([growth.start], dtype=np.int64)).all():
         got = f"{list(growth.start)}, where none may be placed"
         raise InputError(spec.where("growth", "start"), "a cell of the site", got, "growth begins there: move either")

@@ -61,6 +61,16 @@ CASES: dict[str, tuple[dict[str, Any], str, str]] = {
         "growth.site.outline",
         "side 1 ([0, 0] to [2, 2]) meets side 3",
     ),
+    "a site of fewer cells than a room has": (
+        grown(least=27, site={"outline": [[-1, -1], [1, -1], [1, 1], [-1, 1]], "floors": 2}),
+        "growth.site",
+        "expected a site that holds the 27 cells of 'least', got one of 18 cells",
+    ),
+    "more cells at least than at most": (
+        grown(least=500, max_blocks=300),
+        "growth.least",
+        "got 500, more than the 300 of max_blocks",
+    ),
     "a site with no cell": (
         grown(site={"outline": [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9]]}), "growth.site.outline", "an outline that holds"
     ),

@@ -11,7 +11,7 @@ from genome.errors import InputError
 from genome.lsystem import LSystem, parse_word
 from genome.settings import validated
 from growth.blocks import BlockGrowth, Body, CellGrowth, grow, grow_cells
-from growth.blocks.lattice import CUBIC, ISOSPATIAL
+from growth.blocks.lattice import CUBIC, ISOSPATIAL, SQUARE
 from growth.blocks.site import OutlineSettings, site_of
 from growth.environment import Environment, environment_from
 from growth.protocol import Failure
@@ -56,15 +56,28 @@ def test_an_outline_may_go_straight_on_and_bend_inwards() -> None:
         assert len(outlined(outline).outline.points) == len(outline)
 
 
-def test_whether_an_outline_has_room_hangs_on_the_lattice() -> None:
+def test_how_much_an_outline_holds_hangs_on_the_lattice() -> None:
     small = [[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [0.2, 0.8]]
-    assert not outlined(small).has_room(CUBIC, 0)
+    assert outlined(small).capacity(CUBIC) == outlined(small, floors=3).capacity(CUBIC) == 0
     one = [[0.5, 0], [1.5, -0.5], [1.5, 0.5]]
-    assert outlined(one).has_room(CUBIC, 0)
-    assert not outlined(one, floors=1).has_room(ISOSPATIAL, 0)
-    assert outlined(one, floors=1, level=1).has_room(ISOSPATIAL, 1)
-    assert outlined(one, floors=2).has_room(ISOSPATIAL, 0)
-    assert outlined(None).has_room(CUBIC, 0)
+    assert outlined(one).capacity(CUBIC) is None
+    assert outlined(one, floors=1).capacity(ISOSPATIAL) == 0
+    assert outlined(one, floors=1, level=1).capacity(ISOSPATIAL) == 1
+    assert outlined(one, floors=2).capacity(ISOSPATIAL) == 1
+    assert outlined(None).capacity(CUBIC) is None
+
+
+@pytest.mark.parametrize(("lattice", "floors", "level"), [(CUBIC, 3, -1), (ISOSPATIAL, 3, 1), (ISOSPATIAL, 2, 0)])
+def test_a_site_holds_as_many_cells_as_its_capacity_says(lattice, floors: int, level: int) -> None:
+    site = outlined(ELL.tolist(), floors, level)
+    cells = grid(-2, 6)
+    if lattice.parity:
+        cells = cells[cells.sum(axis=1) % 2 == 0]
+    assert site.capacity(lattice) == site.holds(cells).sum()
+
+
+def test_of_a_plane_one_storey_counts() -> None:
+    assert outlined(ELL.tolist(), 5).capacity(SQUARE) == outlined(ELL.tolist(), 1).capacity(CUBIC)
 
 
 def test_bare_cells_are_those_of_a_body_without_its_ground() -> None:
@@ -98,3 +111,12 @@ def test_cells_outside_the_site_are_left_out_and_the_turtle_goes_on() -> None:
     much = grow_cells(system("FFFF"), CellGrowth(max_blocks=4))
     assert isinstance(much, Failure)
     assert much.reason == "budget"
+
+
+def test_cells_that_are_left_out_do_not_count() -> None:
+    low = grow_cells(system("F" * 50), CellGrowth(max_blocks=3), free=lambda cells: cells[:, 2] < 3)
+    assert isinstance(low, np.ndarray)
+    assert low[:, 2].tolist() == [0, 1, 2]
+    over = grow_cells(system("F" * 50), CellGrowth(max_blocks=2), free=lambda cells: cells[:, 2] < 3)
+    assert isinstance(over, Failure)
+    assert over.reason == "budget"
