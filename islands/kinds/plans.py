@@ -52,4 +52,4 @@ def write_plans(
 def _title(facts: Mapping[str, str | float | bool], stem: Path) -> str:
     """Name a plan by its run, its island and its number, where they are known."""
     words = [str(facts[key]) for key in ("run", "island", "id") if facts.get(key)]
-    return " ".join(words) if words else stem.name
+    return " ".join(dict.fromkeys(words)) if words else stem.name

@@ -11,19 +11,23 @@ from evaluators.plans.drawings.doors import faces
 from evaluators.plans.drawings.drawing import Dimension, Point, Wall
 from evaluators.plans.layout import COMPASS
 
-NEAREST: Final = 0.9
 APART: Final = 0.7
-"""Of the first line from the house, and of the next from it, in metres."""
+"""How far the second line is from the first, in metres, and the first from the house, times :data:`NEAREST`, at least."""
+NEAREST: Final = 1.3
+MOST: Final = 25
+"""As many such distances the whole drawing has in width or height at most, so that lines stay apart on a small scale."""
 SIDES: Final[tuple[Side, ...]] = ("south", "east", "north", "west")
 
 
-def dimensions(walls: Sequence[Wall], *, chains: bool) -> list[Dimension]:
+def dimensions(walls: Sequence[Wall], size: float, *, chains: bool) -> list[Dimension]:
     """Measure the plan from axis to axis.
 
     Parameters
     ----------
     walls
         Of the plan.
+    size
+        The larger side of all that is drawn, in metres.
     chains
         Whether each side has a line of its own for the ends of its outer walls, as where walls are at right angles.
 
@@ -35,6 +39,7 @@ def dimensions(walls: Sequence[Wall], *, chains: bool) -> list[Dimension]:
     """
     outer = [wall for wall in walls if wall.outer]
     points = [point for wall in outer for point in (wall.first, wall.last)]
+    apart = max(APART, size / MOST)
     found: list[Dimension] = []
     for side in SIDES:
         axis = 0 if side in ("south", "north") else 1
@@ -47,10 +52,10 @@ def dimensions(walls: Sequence[Wall], *, chains: bool) -> list[Dimension]:
         ordered = _apart(sorted(stops))
         row = 0
         if len(ordered) > 2:
-            found += [_dimension(side, a, b, line, row) for a, b in pairwise(ordered)]
+            found += [_dimension(side, a, b, line, apart * (NEAREST + row)) for a, b in pairwise(ordered)]
             row = 1
         if side in ("south", "west") or (row == 0 and chains):
-            found.append(_dimension(side, ordered[0], ordered[-1], line, row))
+            found.append(_dimension(side, ordered[0], ordered[-1], line, apart * (NEAREST + row)))
     return found
 
 
@@ -60,8 +65,7 @@ def _line(points: Sequence[Point], side: Side) -> float:
     return max(across) if side in ("north", "east") else min(across)
 
 
-def _dimension(side: Side, first: float, last: float, line: float, row: int) -> Dimension:
-    away = NEAREST + APART * row
+def _dimension(side: Side, first: float, last: float, line: float, away: float) -> Dimension:
     at = line + (away if side in ("north", "east") else -away)
     if side in ("south", "north"):
         return Dimension(side, (first, at), (last, at))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
 import numpy as np
@@ -24,9 +24,10 @@ Floats = NDArray[np.float64]
 WIDTH: Final = 0.9
 FRONT: Final = 1.0
 """Of openings, in metres, where the walls are long enough."""
-NARROW: Final = 0.7
-"""Where a door is a bathroom's, say: it is not sought out, but it is no fault."""
-JAMB: Final = 0.06
+LEAST: Final = 0.75
+LEAST_FRONT: Final = 0.9
+"""What is narrower is taken where nothing else is to be had."""
+JAMB: Final = 0.03
 """Between an opening and the end of a wall's face, as a share of a cell's edge, and in metres at most twice as much."""
 ROUND: Final = 0.01
 """Widths are whole centimetres."""
@@ -51,36 +52,40 @@ def doors(layout: Layout, walls: Sequence[Wall], floors: Sequence[Ring]) -> list
     list of Opening
         The front door first where the brief names an entrance, then one for each of ``layout.doors``, in their order.
     """
-    names = list(layout.brief.rooms)
-    private = [wish.private for wish in layout.brief.rooms.values()]
     unit = layout.brief.unit
-    depth = _depths(layout)
+    ranks = _ranks(layout)
     swept: list[Floats] = []
     found: list[Opening] = []
-    if layout.brief.entrance is not None:
-        room = names.index(layout.brief.entrance)
-        own = [k for k, wall in enumerate(walls) if wall.outer and wall.rooms[0] == room]
-        toward = layout.brief.site.street
-        facing = own if toward is None else [k for k in own if faces(walls[k], COMPASS[toward])]
-        if facing or own:
-            options = [one for k in facing or own for one in _options(k, walls[k], FRONT, unit, front=True)]
-            found.append(_best(options, walls, floors, swept, lambda into: 0.0))
+    own = _front_walls(layout, walls)
+    if own:
+        options = [one for k in own for one in _options(k, walls[k], FRONT, unit, front=True)]
+        found.append(_best(options, walls, floors, swept, ranks))
     for first, second in layout.doors:
         own = [k for k, wall in enumerate(walls) if set(wall.rooms) == {first, second}]
         options = [one for k in own for one in _options(k, walls[k], WIDTH, unit)]
-
-        def farther(into: int, first: int = first, second: int = second) -> float:
-            other = second if into == first else first
-            better = (private[into], depth[into]) >= (private[other], depth[other])
-            return 0.0 if better else 3.0
-
-        found.append(_best(options, walls, floors, swept, farther))
+        found.append(_best(options, walls, floors, swept, ranks))
     return found
+
+
+def _front_walls(layout: Layout, walls: Sequence[Wall]) -> list[int]:
+    """Give the outer walls of the entrance that face the street, all of them where none does."""
+    entrance, street = layout.brief.entrance, layout.brief.site.street
+    if entrance is None:
+        return []
+    room = list(layout.brief.rooms).index(entrance)
+    own = [k for k, wall in enumerate(walls) if wall.outer and wall.rooms[0] == room]
+    return own if street is None else [k for k in own if faces(walls[k], COMPASS[street])] or own
+
+
+def _ranks(layout: Layout) -> list[tuple[bool, int]]:
+    """Rank rooms: a door opens into the private one of two, else into the one that is more doors from the entrance."""
+    private = [wish.private for wish in layout.brief.rooms.values()]
+    return list(zip(private, _depths(layout), strict=True))
 
 
 def jamb(unit: float) -> float:
     """Give the least distance of an opening from where a wall's face ends, in metres."""
-    return min(JAMB * unit, 2 * JAMB)
+    return JAMB * min(unit, 2.0)
 
 
 def _options(number: int, wall: Wall, most: float, unit: float, *, front: bool = False) -> Iterator[Opening]:
@@ -97,7 +102,7 @@ def _best(
     walls: Sequence[Wall],
     floors: Sequence[Ring],
     swept: list[Floats],
-    farther: Callable[[int], float],
+    ranks: Sequence[tuple[bool, int]],
 ) -> Opening:
     """Choose a door, the first of the best; what its leaf sweeps joins the others' sweeps."""
     sweeps = [sweep(walls[one.wall], one) for one in options]
@@ -110,8 +115,9 @@ def _best(
         leaf = leaf_of(walls[one.wall], one)
         behind = np.array([_beyond(leaf.jamb, leaf.hinge, 0.2 * one.width)])
         free = bool(inside(behind + 0.1 * (np.array(leaf.tip) - np.array(leaf.hinge)), floors[one.into])[0])
-        narrow = max(0.0, NARROW - one.width)
-        return 100.0 * blocked + 20.0 * crowded + 40.0 * narrow + farther(one.into) + 1.5 * free
+        backward = any(ranks[room] > ranks[one.into] for room in walls[one.wall].rooms if room != OUTSIDE)
+        narrow = max(0.0, (LEAST_FRONT if one.front else LEAST) - one.width)
+        return 100.0 * blocked + 20.0 * crowded + 40.0 * narrow + 3.0 * backward + 1.5 * free
 
     best = min(range(len(options)), key=lambda place: (round(cost(place), 6), place))
     swept.append(sweeps[best])

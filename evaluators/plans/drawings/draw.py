@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from evaluators.plans.drawings.dimensions import dimensions
 from evaluators.plans.drawings.doors import doors, sweep
 from evaluators.plans.drawings.drawing import OUTSIDE, Drawing, DrawnRoom, Ground, Point, Ring
@@ -33,11 +35,11 @@ def drawing(layout: Layout, title: str) -> Drawing:
     if tiling.solid:
         raise InputError("drawing", "a plan on one floor", "one of cubes", "write it as .glb or .png")
     x, y = layout.place.shift
-    around = sides(plan, plan.cells + [x, y, 0])
-    flat = (unit * tiling.positions[:2, :2]).tolist()
+    around = sides(plan, plan.cells + np.array([x, y, 0], dtype=np.int64))
+    flat: list[list[float]] = (unit * tiling.positions[:2, :2]).tolist()
 
     def place(corner: Corner) -> Point:
-        return tuple(row[0] * corner[0] + row[1] * corner[1] for row in flat)  # type: ignore[return-value]
+        return flat[0][0] * corner[0] + flat[0][1] * corner[1], flat[1][0] * corner[0] + flat[1][1] * corner[1]
 
     found = {room: faces(runs, room, unit, place) for room, runs in around.items()}
     body = walls(around, found, unit, place)
@@ -54,7 +56,8 @@ def drawing(layout: Layout, title: str) -> Drawing:
     openings = (*placed, *windows(layout, body, placed))
     ground = Ground(_site(layout), brief.site.street, brief.site.view)
     hull, outline = floor(found[OUTSIDE])[::-1], straightened([place(run.first) for run in around[OUTSIDE]])[::-1]
-    measured = tuple(dimensions(body, chains=tiling.name == "square"))
+    xs, ys = zip(*hull, *(ground.outline or ()), strict=True)
+    measured = tuple(dimensions(body, max(max(xs) - min(xs), max(ys) - min(ys)), chains=tiling.name == "square"))
     return Drawing(title, tuple(rooms), tuple(body), openings, hull, outline, measured, ground)
 
 

@@ -117,7 +117,9 @@ def _turn(middle: tuple[float, float], point: tuple[float, float]) -> float:
 def _window(space: Modelspace, drawing: Drawing, window: Opening) -> None:
     wall = drawing.walls[window.wall]
     half, end = wall.thickness / 2, window.start + window.width
-    corners = [wall.at(far, aside) for far, aside in ((window.start, half), (window.start, -half), (end, -half), (end, half))]
+    corners = [
+        wall.at(far, aside) for far, aside in ((window.start, half), (window.start, -half), (end, -half), (end, half))
+    ]
     space.add_lwpolyline(corners, close=True, dxfattribs={"layer": "WINDOWS"})
     space.add_line(wall.at(window.start), wall.at(end), dxfattribs={"layer": "WINDOWS"})
 

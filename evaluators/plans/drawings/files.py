@@ -77,7 +77,9 @@ def write_plan(layout: Layout, path: Path, title: str, extras: Extras | None = N
     """
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in WRITERS:
-        raise InputError(str(path), f"a plan's suffix (.{', .'.join(WRITERS)})", f"'{path.suffix}'", "choose one of these")
+        raise InputError(
+            str(path), f"a plan's suffix (.{', .'.join(WRITERS)})", f"'{path.suffix}'", "choose one of these"
+        )
     write_whole(path, WRITERS[suffix](layout, title, extras or {}))
 
 

@@ -46,9 +46,7 @@ def plan_ifc(drawing: Drawing) -> bytes:
     for outer, (usage, *own) in layers.items():
         if own:
             model.root("IfcRelAssociatesMaterial", f"material {outer}", RelatedObjects=own, RelatingMaterial=usage)
-    model.root(
-        "IfcRelContainedInSpatialStructure", "contents", RelatingStructure=storey, RelatedElements=elements
-    )
+    model.root("IfcRelContainedInSpatialStructure", "contents", RelatingStructure=storey, RelatedElements=elements)
     del site
     return model.written()
 
@@ -92,7 +90,7 @@ def _slab(model: Model, storey: Entity, drawing: Drawing) -> Entity:
     return made
 
 
-def _layers(model: Model, drawing: Drawing, outer: bool) -> list[Entity]:  # noqa: FBT001 - which of two walls
+def _layers(model: Model, drawing: Drawing, outer: bool) -> list[Entity]:
     """Give how the layer of walls lies about their axis, as the first of a list."""
     thickness = next((wall.thickness for wall in drawing.walls if wall.outer == outer), None)
     return [] if thickness is None else [model.layers("Outer wall" if outer else "Inner wall", thickness)]
@@ -163,5 +161,3 @@ def _box(left: float, right: float, low: float, high: float) -> Ring:
 def _perimeter(ring: Sequence[Point]) -> float:
     pairs = zip(ring, (*ring[1:], ring[0]), strict=True)
     return float(sum(((bx - ax) ** 2 + (by - ay) ** 2) ** 0.5 for (ax, ay), (bx, by) in pairs))
-
-

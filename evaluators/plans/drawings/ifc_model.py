@@ -101,7 +101,9 @@ class Model:
             self._file.createIfcPropertySingleValue(key, None, self._file.create_entity("IfcBoolean", value), None)
             for key, value in values.items()
         ]
-        self._defined(entity, self.root("IfcPropertySet", f"{name} of {entity.GlobalId}", Name=name, HasProperties=rows))
+        self._defined(
+            entity, self.root("IfcPropertySet", f"{name} of {entity.GlobalId}", Name=name, HasProperties=rows)
+        )
 
     def written(self) -> bytes:
         """Give the file."""

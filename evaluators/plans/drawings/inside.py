@@ -17,7 +17,7 @@ ACROSS: Final = 9
 LARGEST: Final = 0.28
 SMALLEST: Final = 0.04
 """Heights of letters in metres for cells of a metre."""
-LETTER: Final = 0.62
+LETTER: Final = 0.68
 LINES: Final = 2.7
 """The width of a letter and the height of two lines, in heights of letters."""
 BETTER: Final = 1.25

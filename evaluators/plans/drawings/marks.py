@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, final
 
@@ -147,8 +147,8 @@ def _fits(low: Point, high: Point, scale: float) -> bool:
     return (high[0] - low[0]) * scale <= PAGE[0] and (high[1] - low[1]) * scale <= PAGE[1]
 
 
-def plan(drawing: Drawing, pen: Pen, *, small: bool = False) -> Iterator[Mark]:
-    """Draw rooms, walls, doors and windows; names and areas where the plan is not small."""
+def plan(drawing: Drawing, pen: Pen, short: Mapping[str, str] | None = None) -> Iterator[Mark]:
+    """Draw rooms, walls, doors and windows, and the rooms' names and areas, or what stands for them in short."""
     for number, room in enumerate(drawing.rooms):
         yield Fill("room", (pen.ring(room.outline),), TINTS[number % len(TINTS)], room.name)
     bodies = tuple(pen.ring(ring) for ring in poche(drawing, ("door", "window")))
@@ -156,7 +156,7 @@ def plan(drawing: Drawing, pen: Pen, *, small: bool = False) -> Iterator[Mark]:
     for opening in drawing.openings:
         yield from _door(drawing, opening, pen) if opening.kind == "door" else _window(drawing, opening, pen)
     for room in drawing.rooms:
-        yield from _name(room, pen) if not small else _initials(room, pen)
+        yield from _name(room, pen) if short is None else _abbreviated(room, short[room.name], pen)
 
 
 def _door(drawing: Drawing, door: Opening, pen: Pen) -> Iterator[Mark]:
@@ -202,15 +202,31 @@ def _name(room: DrawnRoom, pen: Pen) -> Iterator[Mark]:
                     90 if room.label.upright else 0, bold)  # fmt: skip
 
 
-def _initials(room: DrawnRoom, pen: Pen) -> Iterator[Mark]:
+def _abbreviated(room: DrawnRoom, text: str, pen: Pen) -> Iterator[Mark]:
     x, y = pen(room.label.at)
     size = max(1.25 * pen.scale * room.label.size, 1.5)
-    text = "".join(word[0].upper() for word in room.name.split("_") if word)
     yield Words("name", text, (x, y + 0.36 * size), size)
+
+
+def abbreviations(names: Sequence[str]) -> dict[str, str]:
+    """Give short names, each its own: initials, and of those that share them as many letters as tell them apart."""
+    found: dict[str, str] = {}
+    for name in names:
+        parts = [word for word in name.split("_") if word] or [name]
+        found[name] = "".join(word[0].upper() for word in parts)
+    letters = 2
+    while len(set(found.values())) < len(found) and letters <= max(map(len, names)):
+        taken = list(found.values())
+        for name, short in list(found.items()):
+            if taken.count(short) > 1:
+                found[name] = name[:letters].capitalize()
+        letters += 1
+    return found
 
 
 def _dimensions(drawing: Drawing, pen: Pen) -> Iterator[Mark]:
     """Draw dimension lines with oblique ticks, and the figures above them, or left of them."""
+    size = min([2.0, *(0.3 * one.length * pen.scale for one in drawing.dimensions)])
     for one in drawing.dimensions:
         first, last = pen(one.first), pen(one.last)
         level = one.side in ("south", "north")
@@ -223,7 +239,7 @@ def _dimensions(drawing: Drawing, pen: Pen) -> Iterator[Mark]:
             yield Stroke("reach", ((x, y - 1.6), (x, y + 1.6)) if level else ((x - 1.6, y), (x + 1.6, y)), HAIR)
         middle = ((first[0] + last[0]) / 2, (first[1] + last[1]) / 2)
         at = (middle[0], middle[1] - 0.8) if level else (middle[0] - 0.8, middle[1])
-        yield Words("figure", f"{one.length:.2f}", at, min(2.0, 0.3 * one.length * pen.scale), turn=0 if level else 90)
+        yield Words("figure", f"{one.length:.2f}", at, size, turn=0 if level else 90)
 
 
 def site(drawing: Drawing, pen: Pen) -> Iterator[Mark]:
@@ -261,7 +277,7 @@ def _legend(drawing: Drawing, ratio: int, left: float, right: float, bottom: flo
         yield Fill("scale", (pen.ring(ring),), INK if k % 2 == 0 else PAPER)
         yield Stroke("scale", pen.ring(ring), HAIR, closed=True)
     end = left + 3 * step * pen.scale
-    yield Words("note", f"{3 * step:g} m   1:{ratio}", (end + 2.0, bottom), 2.3, "start")
+    yield Words("note", f"{3 * step:g} m, scale 1:{ratio}", (end + 2.0, bottom), 2.3, "start")
     x, y = right - 5.0, top + 7.0
     yield Fill("north", (((x, y - 6.0), (x + 2.2, y + 3.0), (x, y + 1.2)),), INK)
     yield Stroke("north", ((x, y - 6.0), (x + 2.2, y + 3.0), (x, y + 1.2), (x - 2.2, y + 3.0)), FINE, closed=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
@@ -95,21 +96,29 @@ def _dashed(points: list[Point], dashes: list[float]) -> list[list[Point]]:
 
 
 def _words(image: Image, mark: Words, scale: float) -> None:
+    """Write a line; the font has no raised 2, so that it is written small."""
     from PIL import Image as Images
     from PIL import ImageDraw
 
-    font = _font(max(round(mark.size * scale * 1.08), 6))
+    size = mark.size * scale * 1.08
     heavy = max(round(mark.size * scale / 40), 1) if mark.bold else 0
-    left, top, right, bottom = font.getbbox(mark.text, anchor="ls", stroke_width=heavy)
-    mask = Images.new("L", (int(right - left) + 2, int(bottom - top) + 2))
-    ImageDraw.Draw(mask).text((1 - left, 1 - top), mark.text, 255, font, "ls", stroke_width=heavy)
+    parts: list[tuple[str, Any, float, float]] = []
+    right = 0.0
+    for place, text in enumerate(re.split("(\u00b2)", mark.text)):
+        font = _font(max(round(0.6 * size if place % 2 else size), 6))
+        parts.append(("2" if place % 2 else text, font, right, 0.34 * size if place % 2 else 0.0))
+        right += font.getlength(parts[-1][0])
+    edge, rise = 2 * heavy + 2, round(1.2 * size)
+    mask = Images.new("L", (round(right) + 2 * edge, rise + round(0.5 * size)))
+    pen = ImageDraw.Draw(mask)
+    for text, font, along, up in parts:
+        pen.text((edge + along, rise - up), text, 255, font, "ls", stroke_width=heavy)
     # Where the base line's anchor is in the mask, from its left and its top.
-    x, y = (1 - left + (right + left) / 2 if mark.anchor == "middle" else 1 - left), 1 - top
+    x, y = edge + (right / 2 if mark.anchor == "middle" else 0.0), float(rise)
     if mark.turn == 90:
         x, y = y, mask.width - x
         mask = mask.transpose(Images.Transpose.ROTATE_90)
-    at = (round(mark.at[0] * scale - x), round(mark.at[1] * scale - y))
-    image.paste(mark.colour, at, mask)
+    image.paste(mark.colour, (round(mark.at[0] * scale - x), round(mark.at[1] * scale - y)), mask)
 
 
 @lru_cache(maxsize=64)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from evaluators.plans.drawings.drawing import Drawing
-from evaluators.plans.drawings.marks import INK, PALE, PAPER, Fill, Mark, Paper, Pen, Words, extent, plan
+from evaluators.plans.drawings.marks import PALE, PAPER, Fill, Mark, Paper, Pen, Words, abbreviations, extent, plan
 from evaluators.plans.drawings.png import paper_png
 from evaluators.plans.drawings.svg import paper_svg
 from genome.errors import InputError
@@ -44,25 +44,23 @@ def sheet(drawings: Sequence[Drawing], title: str) -> Paper:
     sides = [(high[0] - low[0], high[1] - low[1]) for low, high in boxes]
     scale = cell / max(max(side) for side in sides)
     tall = scale * max(side[1] for side in sides)
+    short = abbreviations(list(dict.fromkeys(room.name for one in drawings for room in one.rooms)))
     marks: list[Mark] = [Words("title", title, (MARGIN, MARGIN + 4.0), 4.5, "start", bold=True)]
     for place, one in enumerate(drawings):
         row, column = divmod(place, columns)
         left, top = MARGIN + column * (cell + GAP), MARGIN + HEAD + row * (tall + GAP + 6.0)
         (low, _), (wide, high) = boxes[place], sides[place]
-        pen = Pen(scale, (left + (cell - scale * wide) / 2 - scale * low[0], top + (tall + scale * high) / 2 + scale * low[1]))
-        marks += plan(one, pen, small=True)
+        pen = Pen(
+            scale, (left + (cell - scale * wide) / 2 - scale * low[0], top + (tall + scale * high) / 2 + scale * low[1])
+        )
+        marks += plan(one, pen, short)
         marks.append(Words("caption", one.title, (left + cell / 2, top + tall + 5.0), 2.6))
     rows = math.ceil(len(drawings) / columns)
     height = MARGIN + HEAD + rows * (tall + GAP + 6.0) + MARGIN
-    names = dict.fromkeys(room.name for one in drawings for room in one.rooms)
-    told = ", ".join(f"{_initials(name)} {name.replace('_', ' ')}" for name in names)
+    told = ", ".join(f"{one} {name.replace('_', ' ')}" for name, one in short.items())
     marks.append(Words("note", told, (MARGIN, height - MARGIN + 2.0), 2.6, "start", colour=PALE))
     back = Fill("paper", (((0.0, 0.0), (WIDTH, 0.0), (WIDTH, height), (0.0, height)),), PAPER)
     return Paper(title, WIDTH, height, (back, *marks))
-
-
-def _initials(name: str) -> str:
-    return "".join(word[0].upper() for word in name.split("_") if word)
 
 
 def sheet_svg(drawings: Sequence[Drawing], title: str) -> bytes:
@@ -73,6 +71,3 @@ def sheet_svg(drawings: Sequence[Drawing], title: str) -> bytes:
 def sheet_png(drawings: Sequence[Drawing], title: str) -> bytes:
     """Draw a sheet as PNG."""
     return paper_png(sheet(drawings, title))
-
-
-__all__ = ["INK", "MOST", "sheet", "sheet_png", "sheet_svg"]

@@ -12,7 +12,7 @@ from evaluators.plans.drawings.edges import Corner, Run, direction
 OUTER: Final = 0.30
 INNER: Final = 0.12
 """Thicknesses in metres, where cells are large."""
-LARGEST: Final = 0.25
+LARGEST: Final = 0.22
 """Of an outer wall, as a share of a cell's edge; inner walls are thinner in the same proportion."""
 
 Place = Callable[[Corner], Point]
@@ -41,7 +41,7 @@ def thicknesses(unit: float) -> tuple[float, float]:
 def faces(runs: Sequence[Run], room: int, unit: float, place: Place) -> list[Face]:
     """Give the faces of a room's, or the outside's, sides."""
     half = [_half(room, run.beyond, unit) for run in runs]
-    ends = []
+    ends: list[list[tuple[Point, ...]]] = []
     for k, run in enumerate(runs):
         before, at = runs[k - 1], place(run.first)
         one, two = _normal(before, place), _normal(run, place)
@@ -49,7 +49,9 @@ def faces(runs: Sequence[Run], room: int, unit: float, place: Place) -> list[Fac
             ends.append([(_meeting(at, one, half[k - 1], two, half[k]),)] * 2)
             continue
         thin, thick = (_moved(at, two, far) for far in sorted((half[k - 1], half[k])))
-        ends.append([(thin,) if far == min(half[k - 1], half[k]) else (thin, thick) for far in (half[k - 1], half[k])])
+        chains: dict[float, tuple[Point, ...]] = {max(half[k - 1], half[k]): (thin, thick)}
+        chains[min(half[k - 1], half[k])] = (thin,)
+        ends.append([chains[half[k - 1]], chains[half[k]]])
     return [Face(ends[k][1], ends[(k + 1) % len(runs)][0]) for k in range(len(runs))]
 
 
