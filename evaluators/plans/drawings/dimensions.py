@@ -12,10 +12,10 @@ from evaluators.plans.drawings.drawing import Dimension, Point, Wall
 from evaluators.plans.layout import COMPASS
 
 APART: Final = 0.7
-"""How far the second line is from the first, in metres, and the first from the house, times :data:`NEAREST`, at least."""
+"""How far the second line is from the first, in metres, at least; the first from the house :data:`NEAREST` times that."""
 NEAREST: Final = 1.3
 MOST: Final = 25
-"""As many such distances the whole drawing has in width or height at most, so that lines stay apart on a small scale."""
+"""So many such distances are the larger side of all that is drawn at most: lines stay apart on small scales."""
 SIDES: Final[tuple[Side, ...]] = ("south", "east", "north", "west")
 
 

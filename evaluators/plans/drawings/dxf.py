@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from typing import TYPE_CHECKING, Any, Final
 
 from evaluators.plans.drawings.draw import plain
@@ -11,7 +12,7 @@ from evaluators.plans.drawings.poche import poche
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
-    from ezdxf.layouts import Modelspace
+    from ezdxf.layouts.layout import Modelspace
 
 LAYERS: Final = {
     "WALLS": (7, 35),
@@ -30,15 +31,14 @@ LETTERS: Final = 0.2
 def plan_dxf(drawing: Drawing) -> bytes:
     """Write a plan; the same drawing gives the same bytes.
 
-    The plan's figures are those of its axes: ROOMS has a closed polyline for each room along the axes with its name and
-    area inside, WALLS the bodies of the walls cut by the openings, closed and hatched, DOORS leaf and swing of each door,
-    DIMENSIONS associated dimension lines.
+    ROOMS has a closed polyline for each room along the axes of its walls, and its name and area inside; WALLS the bodies
+    of the walls cut by the openings, closed and hatched; DOORS leaf and swing of each door; DIMENSIONS dimension lines.
     """
-    import ezdxf
+    from ezdxf._options import options
 
     # What ezdxf else writes of the moment: times and random identities.
-    before = ezdxf.options.write_fixed_meta_data_for_testing
-    ezdxf.options.write_fixed_meta_data_for_testing = True
+    before = options.write_fixed_meta_data_for_testing
+    options.write_fixed_meta_data_for_testing = True
     try:
         document = _document()
         space = document.modelspace()
@@ -51,15 +51,15 @@ def plan_dxf(drawing: Drawing) -> bytes:
         text = io.StringIO()
         document.write(text)
     finally:
-        ezdxf.options.write_fixed_meta_data_for_testing = before
+        options.write_fixed_meta_data_for_testing = before
     return text.getvalue().encode(document.output_encoding)
 
 
 def _document() -> Document:
-    import ezdxf
     from ezdxf import units
+    from ezdxf.filemanagement import new
 
-    document = ezdxf.new("R2010", units=units.M)
+    document = new("R2010", units=units.M)
     document.header["$MEASUREMENT"] = 1
     document.header["$LUNITS"] = 2
     for name, (colour, width) in LAYERS.items():
@@ -105,12 +105,10 @@ def _door(space: Modelspace, drawing: Drawing, door: Opening) -> None:
     turns = [_turn(leaf.hinge, point) for point in (leaf.jamb, leaf.tip)]
     if (turns[1] - turns[0]) % 360.0 > 180.0:
         turns.reverse()
-    space.add_arc(leaf.hinge, door.width, *turns, dxfattribs={"layer": "DOORS"})
+    space.add_arc(leaf.hinge, door.width, turns[0], turns[1], dxfattribs={"layer": "DOORS"})
 
 
 def _turn(middle: tuple[float, float], point: tuple[float, float]) -> float:
-    import math
-
     return math.degrees(math.atan2(point[1] - middle[1], point[0] - middle[0]))
 
 

@@ -30,9 +30,9 @@ LEAF: Final = 0.05
 
 
 def plan_ifc(drawing: Drawing) -> bytes:
-    """Write a plan; the same drawing gives the same bytes (identities are hashes of what is written, times are fixed)."""
+    """Write a plan; the same drawing gives the same bytes: identities are hashes, the time is fixed."""
     model = Model(drawing.title)
-    site, storey = _places(model, drawing)
+    storey = _places(model, drawing)
     spaces = [_space(model, storey, number, room) for number, room in enumerate(drawing.rooms)]
     model.root("IfcRelAggregates", "spaces", RelatingObject=storey, RelatedObjects=spaces)
     elements = [_slab(model, storey, drawing)]
@@ -47,15 +47,16 @@ def plan_ifc(drawing: Drawing) -> bytes:
         if own:
             model.root("IfcRelAssociatesMaterial", f"material {outer}", RelatedObjects=own, RelatingMaterial=usage)
     model.root("IfcRelContainedInSpatialStructure", "contents", RelatingStructure=storey, RelatedElements=elements)
-    del site
     return model.written()
 
 
-def _places(model: Model, drawing: Drawing) -> tuple[Entity, Entity]:
-    """Make project, site, building and storey, each in the one before."""
+def _places(model: Model, drawing: Drawing) -> Entity:
+    """Make site, building and storey, each in the one before, and give the storey."""
     origin = model.placement(None, (0.0, 0.0, 0.0))
     outline = drawing.ground.outline
-    shape = None if outline is None else model.shape([("FootPrint", "Curve2D", model.polyline((*outline, outline[0])))])
+    shape = None
+    if outline is not None:
+        shape = model.shape([("FootPrint", "Curve2D", model.polyline((*outline, outline[0])))])
     site = model.root("IfcSite", "site", Name="Site", ObjectPlacement=origin, Representation=shape,
                       CompositionType="ELEMENT")  # fmt: skip
     building = model.root("IfcBuilding", "building", Name=drawing.title,
@@ -65,7 +66,7 @@ def _places(model: Model, drawing: Drawing) -> tuple[Entity, Entity]:
                         CompositionType="ELEMENT", Elevation=0.0)  # fmt: skip
     for upper, lower in ((model.project, site), (site, building), (building, storey)):
         model.root("IfcRelAggregates", f"within {upper.is_a()}", RelatingObject=upper, RelatedObjects=[lower])
-    return site, storey
+    return storey
 
 
 def _space(model: Model, storey: Entity, number: int, room: DrawnRoom) -> Entity:

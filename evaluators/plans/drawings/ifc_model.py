@@ -112,7 +112,8 @@ class Model:
         name = header.file_name
         name.name, name.time_stamp, name.author, name.organization = self._title, MOMENT, ("",), ("",)
         name.preprocessor_version, name.originating_system, name.authorization = "ifcopenshell", "atoll", ""
-        return bytes(self._file.to_string().encode())
+        text: str = self._file.to_string()  # type: ignore[no-untyped-call]
+        return text.encode()
 
     def _defined(self, entity: Entity, by: Entity) -> None:
         self.root("IfcRelDefinesByProperties", f"defines {by.GlobalId}", RelatedObjects=[entity],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
@@ -84,7 +85,7 @@ def _stroke(pen: Any, mark: Stroke, scale: float) -> None:  # noqa: ANN401 - Pil
 def _dashed(points: list[Point], dashes: list[float]) -> list[list[Point]]:
     """Cut a line into dashes; each side begins with a whole one."""
     found = []
-    for (ax, ay), (bx, by) in zip(points, points[1:], strict=False):
+    for (ax, ay), (bx, by) in itertools.pairwise(points):
         length = ((bx - ax) ** 2 + (by - ay) ** 2) ** 0.5
         at, which = 0.0, 0
         while at < length:

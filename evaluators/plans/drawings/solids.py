@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 
 LEVELS: Final = (0.0, WINDOW_SILL, DOOR_HEAD, HEIGHT)
-"""Doors are open below the second level's top, windows between the first and the second; doors and windows have one head."""
+"""Windows are open between the first and the second one, doors below the second; they have one head."""
 OPEN: Final = {"door": (True, True, False), "window": (False, True, False), None: (False, False, False)}
 FINISH: Final = 0.02
 """The thickness of a room's floor on the slab, in metres."""
@@ -44,7 +44,7 @@ def raised_walls(drawing: Drawing) -> Solid:
     """
     mesh = _Mesh()
     parts = pieces(drawing)
-    for level, (low, high) in enumerate(zip(LEVELS, LEVELS[1:], strict=False)):
+    for level, (low, high) in enumerate(itertools.pairwise(LEVELS)):
         beside: dict[tuple[Point, Point], int] = {}
         rings = []
         for piece in parts:
@@ -114,16 +114,3 @@ class _Mesh:
     def solid(self) -> Solid:
         """Give them all."""
         return Solid(np.array(list(self._places)), np.array(self._triangles, dtype=np.int32))
-
-
-def volume(solid: Solid) -> float:
-    """Give what a closed mesh holds."""
-    a, b, c = (solid.vertices[solid.triangles[:, k]] for k in range(3))
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
-
-
-def merged(solids: Sequence[Solid]) -> Solid:
-    """Give several meshes as one."""
-    starts = np.cumsum([0, *(len(one.vertices) for one in solids)])
-    triangles = [one.triangles + int(start) for one, start in zip(solids, starts, strict=False)]
-    return Solid(np.concatenate([one.vertices for one in solids]), np.concatenate(triangles).astype(np.int32))
