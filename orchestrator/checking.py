@@ -83,7 +83,9 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    raise InputError(str(path), "a .yaml, .hemls, .blocks, .body.json, .plan or .bnf file", f"'{path.suffix or path.name}'")
+    raise InputError(
+        str(path), "a .yaml, .hemls, .blocks, .body.json, .plan or .bnf file", f"'{path.suffix or path.name}'"
+    )
 
 
 def _is_environment(path: Path) -> bool:

@@ -36,16 +36,17 @@ def plan_ifc(drawing: Drawing) -> bytes:
     spaces = [_space(model, storey, number, room) for number, room in enumerate(drawing.rooms)]
     model.root("IfcRelAggregates", "spaces", RelatingObject=storey, RelatedObjects=spaces)
     elements = [_slab(model, storey, drawing)]
-    layers = {outer: _layers(model, drawing, outer) for outer in (True, False)}
+    alike: dict[bool, list[Entity]] = {}
     for number, wall in enumerate(drawing.walls):
         made = _wall(model, storey, drawing, number)
         elements.append(made)
-        layers[wall.outer].append(made)
+        alike.setdefault(wall.outer, []).append(made)
         for place, opening in enumerate(drawing.of_wall(number)):
             elements.append(_opening(model, made, wall, opening, f"{number}.{place}"))
-    for outer, (usage, *own) in layers.items():
-        if own:
-            model.root("IfcRelAssociatesMaterial", f"material {outer}", RelatedObjects=own, RelatingMaterial=usage)
+    for outer, own in alike.items():
+        thickness = next(wall.thickness for wall in drawing.walls if wall.outer == outer)
+        usage = model.layers("Outer wall" if outer else "Inner wall", thickness)
+        model.root("IfcRelAssociatesMaterial", f"material {outer}", RelatedObjects=own, RelatingMaterial=usage)
     model.root("IfcRelContainedInSpatialStructure", "contents", RelatingStructure=storey, RelatedElements=elements)
     return model.written()
 
@@ -89,12 +90,6 @@ def _slab(model: Model, storey: Entity, drawing: Drawing) -> Entity:
     )  # fmt: skip
     model.quantities(made, "Qto_SlabBaseQuantities", {"Width": SLAB, "GrossArea": ring_area(drawing.hull)})
     return made
-
-
-def _layers(model: Model, drawing: Drawing, outer: bool) -> list[Entity]:
-    """Give how the layer of walls lies about their axis, as the first of a list."""
-    thickness = next((wall.thickness for wall in drawing.walls if wall.outer == outer), None)
-    return [] if thickness is None else [model.layers("Outer wall" if outer else "Inner wall", thickness)]
 
 
 def _wall(model: Model, storey: Entity, drawing: Drawing, number: int) -> Entity:

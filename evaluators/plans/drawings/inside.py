@@ -8,12 +8,12 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from evaluators.plans.drawings.drawing import Label, Point, Ring
+from evaluators.plans.drawings.drawing import Label, Ring
 
 Floats = NDArray[np.float64]
 
-ACROSS: Final = 9
-"""Places that are tried for words across the longer side of a room's box, times two, less one."""
+PLACES: Final = 25
+"""That are tried for words across the longer side of a room's box."""
 LARGEST: Final = 0.28
 SMALLEST: Final = 0.04
 """Heights of letters in metres for cells of a metre."""
@@ -50,36 +50,28 @@ def label(words: Sequence[str], ring: Ring, obstacles: Sequence[Floats], unit: f
     """
     points = np.array(ring)
     low, high = points.min(axis=0), points.max(axis=0)
-    step = max(float((high - low).max()) / (2 * ACROSS - 1), 1e-9)
-    places = np.stack(
-        np.meshgrid(*(np.arange(a + step / 2, b, step / 2) for a, b in zip(low, high, strict=True))), axis=-1
-    )
+    step = float((high - low).max()) / PLACES
+    grid = np.meshgrid(*(np.arange(a + step / 2, b, step) for a, b in zip(low, high, strict=True)))
     middle = points.mean(axis=0)
-    spots = np.concatenate([places.reshape(-1, 2), middle[None]])
+    spots = np.concatenate([np.stack(grid, axis=-1).reshape(-1, 2), middle[None]])
     spots = spots[inside(spots, ring)]
-    rim = _along(ring, step / 6)
-    wide = max(LETTER * max(map(len, words)), 1.0)
-    found: list[tuple[float, float, Point, bool]] = []
+    rim = _along(ring, step / 3)
+    wide = LETTER * max(map(len, words))
+    found: list[tuple[float, Label]] = []
     for barred in ([rim, *obstacles], [rim]):
+        rim_x, rim_y = np.concatenate(barred).T
+        across, up = np.abs(spots[:, :1] - rim_x), np.abs(spots[:, 1:] - rim_y)
         for upright in (False, True):
-            box = np.array([LINES, wide] if upright else [wide, LINES])
-            apart = np.abs(spots[:, None, :] - np.concatenate(barred)[None, :, :]) / (box / 2)
-            sizes = apart.max(axis=2).min(axis=1)
-            size = np.minimum(sizes, LARGEST * unit).round(6)
-            near = np.hypot(*(spots - middle).T).round(6)
-            best = int(np.lexsort((near, -sizes.round(2), -size))[0])
-            found.append(
-                (
-                    float(size[best]) / (BETTER if upright else 1.0),
-                    float(size[best]),
-                    tuple(spots[best].tolist()),
-                    upright,
-                )
-            )
-        if max(found)[0] >= LARGEST * unit / 3:
+            x, y = (LINES, wide) if upright else (wide, LINES)
+            free = np.maximum(across / (x / 2), up / (y / 2)).min(axis=1).round(6)
+            sizes = np.minimum(free, LARGEST * unit)
+            best = int(np.lexsort((np.hypot(*(spots - middle).T).round(6), -free, -sizes))[0])
+            one = Label((float(spots[best, 0]), float(spots[best, 1])), float(sizes[best]), upright)
+            found.append((one.size / BETTER if upright else one.size, one))
+        if max(size for size, _ in found) >= LARGEST * unit / 3:
             break
-    _, size, at, upright = max(found, key=lambda one: one[0])
-    return Label(at, max(size, SMALLEST * unit), upright)
+    one = max(found, key=lambda row: row[0])[1]
+    return one._replace(size=max(one.size, SMALLEST * unit))
 
 
 def _along(ring: Ring, step: float) -> Floats:

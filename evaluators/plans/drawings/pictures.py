@@ -13,11 +13,11 @@ from growth.pictures import render
 from growth.surface import Surface
 
 
-def cubes_png(layout: Layout) -> bytes:
-    """Draw the rooms of a plan of cubes, each in a colour, from the south-west above."""
+def cubes_png(layout: Layout, size: tuple[int, int] = (1000, 750)) -> bytes:
+    """Draw the rooms of a plan of cubes, each in a colour, from the south-west above, so many pixels wide and high."""
     parts = cube_parts(layout)
     colours = [np.tile(np.array(part.colour) / 255.0, (len(part.solid.triangles) // 2, 1)) for part in parts]
-    image = render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours)
+    image = render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours, size=size)
     stream = io.BytesIO()
     image.save(stream, format="PNG", optimize=True)
     return stream.getvalue()
