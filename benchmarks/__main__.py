@@ -8,6 +8,7 @@ import sys
 NAMES = (
     "growth",
     "blocks_growth",
+    "houses",
     "bnf_mapping",
     "mesh_queries",
     "start",

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final, Protocol, runtime_checkable
 
-from evaluators.plans import Brief, laid_out
+from evaluators.plans import Brief, Layout, laid_out
 from genome.errors import InputError
 from genome.files import write_whole
 from genome.polyform import Assembly, Room, encode
@@ -17,6 +17,14 @@ from islands.kinds.protocol import Facts
 FORMATS: Final = ("svg", "dxf", "ifc", "glb", "png", "json")
 USUAL: Final = ("svg", "glb", "json")
 """What is written where no format is asked for; of plans of cubes what can be."""
+
+
+@runtime_checkable
+class Planner(Protocol):
+    """A biology whose genotypes grow to plans."""
+
+    def layout(self, genotype: Any, /) -> Layout | Failure:  # noqa: ANN401 - whatever the biology breeds
+        """Grow a plan and lay it out."""
 
 
 def write_plans(

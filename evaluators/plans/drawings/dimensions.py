@@ -12,7 +12,7 @@ from evaluators.plans.drawings.drawing import Dimension, Point, Wall
 from evaluators.plans.layout import COMPASS
 
 APART: Final = 0.7
-"""How far the second line is from the first, in metres, at least; the first from the house :data:`NEAREST` times that."""
+"""How far the second line is from the first, in metres, at least; the first is :data:`NEAREST` times as far out."""
 NEAREST: Final = 1.3
 MOST: Final = 25
 """So many such distances are the larger side of all that is drawn at most: lines stay apart on small scales."""

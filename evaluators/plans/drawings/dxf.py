@@ -31,8 +31,8 @@ LETTERS: Final = 0.2
 def plan_dxf(drawing: Drawing) -> bytes:
     """Write a plan; the same drawing gives the same bytes.
 
-    ROOMS has a closed polyline for each room along the axes of its walls, and its name and area inside; WALLS the bodies
-    of the walls cut by the openings, closed and hatched; DOORS leaf and swing of each door; DIMENSIONS dimension lines.
+    ROOMS has a closed polyline for each room along the axes of its walls, and its name and area inside; WALLS the walls
+    cut by the openings, closed and hatched; DOORS leaf and swing of each door; DIMENSIONS dimension lines.
     """
     from ezdxf._options import options
 

@@ -60,8 +60,8 @@ def _places(model: Model, drawing: Drawing) -> Entity:
         shape = model.shape([("FootPrint", "Curve2D", model.polyline((*outline, outline[0])))])
     site = model.root("IfcSite", "site", Name="Site", ObjectPlacement=origin, Representation=shape,
                       CompositionType="ELEMENT")  # fmt: skip
-    building = model.root("IfcBuilding", "building", Name=drawing.title,
-                          ObjectPlacement=model.placement(origin, (0.0, 0.0, 0.0)), CompositionType="ELEMENT")  # fmt: skip
+    at = model.placement(origin, (0.0, 0.0, 0.0))
+    building = model.root("IfcBuilding", "building", Name=drawing.title, ObjectPlacement=at, CompositionType="ELEMENT")
     at = model.placement(building.ObjectPlacement, (0.0, 0.0, 0.0))
     storey = model.root("IfcBuildingStorey", "storey", Name="Ground floor", ObjectPlacement=at,
                         CompositionType="ELEMENT", Elevation=0.0)  # fmt: skip

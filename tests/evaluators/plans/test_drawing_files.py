@@ -6,7 +6,7 @@ import io
 import math
 from pathlib import Path
 from typing import Any
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 import ezdxf
 import ifcopenshell
@@ -63,7 +63,7 @@ def areas(layout: Layout) -> list[float]:
 @HOUSES
 def test_svg_has_rooms_doors_and_words_in_millimetres(tiling: str, seed: int) -> None:
     layout, found, content = written(tiling, seed, "svg")
-    root = ElementTree.fromstring(content)
+    root = ET.fromstring(content)
     by_kind: dict[str, list[Any]] = {}
     for element in root.iter():
         by_kind.setdefault(element.get("class", ""), []).append(element)
@@ -153,7 +153,7 @@ def test_ifc_bodies_lie_where_the_drawing_has_them() -> None:
     _, found, content = written("square", 0, "ifc")
     model = ifcopenshell.file.from_string(content.decode())
     settings: Any = ifcopenshell.geom.settings()
-    settings.set("use-world-coords", True)
+    settings.set("use-world-coords", True)  # noqa: FBT003 - ifcopenshell's
     openings = sorted(found.openings, key=lambda one: (one.wall, one.start))
     made = sorted([*model.by_type("IfcDoor"), *model.by_type("IfcWindow")], key=lambda one: one.id())
     for entity, one in zip(made, openings, strict=True):
@@ -237,7 +237,7 @@ def test_cubes_are_written_as_solids_and_pictures(tmp_path: Path) -> None:
 
 def test_a_sheet_shows_each_plan_at_one_scale_with_short_names() -> None:
     plans = [drawing(house("square", seed), f"plan {seed}") for seed in range(5)]
-    root = ElementTree.fromstring(sheet_svg(plans, "Five"))
+    root = ET.fromstring(sheet_svg(plans, "Five"))
     captions = [one.text for one in root.iter() if one.get("class") == "caption"]
     assert captions == [f"plan {seed}" for seed in range(5)]
     names = [one.text for one in root.iter() if one.get("class") == "name"]
