@@ -8,6 +8,8 @@ import sys
 NAMES = (
     "growth",
     "blocks_growth",
+    "symbiosis_measures",
+    "space_syntax",
     "houses",
     "bnf_mapping",
     "mesh_queries",

@@ -26,6 +26,10 @@ RACE = ROOT / "experiments" / "arms_race.yaml"
 SEEDS = range(1, 11)
 LEVEL = 0.01
 PLAIN = "the best of now"
+CONTROL = "five best of now"
+"""As many pairings as with the hall of fame."""
+
+HALL = "hall of fame"
 
 GAMES: Mapping[str, tuple[str, ...]] = {
     "rivalry": (),
@@ -48,9 +52,9 @@ def remedy(pairing: str, count: int, sharing: str) -> tuple[str, ...]:
 
 
 REMEDIES: Mapping[str, tuple[str, ...]] = {
-    "five best of now": remedy("several", 5, "none"),
+    CONTROL: remedy("several", 5, "none"),
     "five best of now, shared": remedy("several", 5, "competitive"),
-    "hall of fame": remedy("archive", 1, "none"),
+    HALL: remedy("archive", 1, "none"),
     "hall of fame, shared": remedy("archive", 1, "competitive"),
     "mixed": remedy("mixed", 5, "none"),
     "mixed, shared": remedy("mixed", 5, "competitive"),
@@ -95,25 +99,27 @@ def told(game: str, name: str, found: Sequence[Row], plain: Sequence[Row]) -> st
 
 
 def main(games: Sequence[str]) -> bool:
-    """Print the table of some games, and whether the remedy of the experiment as it stands raises the archive score."""
+    """Print the table of some games, and how sure it is that the hall of fame raises the archive score of rivals."""
     tasks = [(game, name, seed) for game in games for name in REMEDIES for seed in SEEDS]
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         results = dict(zip(tasks, pool.map(contest, tasks, chunksize=1), strict=True))
     print("medians over ten seeds, in brackets p against the best of now")
     print(f"| game | paired with | {' | '.join(FIGURES)} |")
     print("|---|---|---|---|---|---|")
-    p = 1.0
+    worst = 0.0
     for game in games:
         # The pair without a remedy is the same whatever the other has.
-        plain = [results[game, next(iter(REMEDIES)), seed]["plain"] for seed in SEEDS]
+        plain = [results[game, CONTROL, seed]["plain"] for seed in SEEDS]
+        found = {name: [results[game, name, seed]["hall"] for seed in SEEDS] for name in REMEDIES}
         print(told(game, PLAIN, plain, plain))
-        for name in REMEDIES:
-            found = [results[game, name, seed]["hall"] for seed in SEEDS]
-            print(told(game, name, found, plain))
-            if (game, name) == ("rivalry", "hall of fame, shared"):
-                p = mannwhitneyu([row[0] for row in found], [row[0] for row in plain], alternative="greater").pvalue
-    print(f"arms_race: archive score with the hall of fame and shared fitness, p = {p:.2g} (under {LEVEL:g} is wanted)")
-    return bool(p < LEVEL)
+        for name, rows in found.items():
+            print(told(game, name, rows, plain))
+        hall = [row[0] for row in found[HALL]]
+        for name, rows in ((PLAIN, plain), (CONTROL, found[CONTROL])):
+            p = mannwhitneyu(hall, [row[0] for row in rows], alternative="greater").pvalue
+            print(f"arms_race: {game}, archive score, {HALL} above {name}: p = {p:.2g} (under {LEVEL:g} is wanted)")
+            worst = max(worst, p)
+    return bool(worst < LEVEL)
 
 
 if __name__ == "__main__":

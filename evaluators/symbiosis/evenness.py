@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from evaluators.symbiosis.symbiosis import Symbiosis
 from growth.blocks.lattice import FACE
+
+Ints = NDArray[np.int64]
 
 
 def evenness(symbiosis: Symbiosis) -> float:
@@ -33,7 +36,7 @@ def evenness(symbiosis: Symbiosis) -> float:
         return 0.0
     lattice = symbiosis.lattice
     sides = lattice.offsets[lattice.contacts == FACE]
-    cells = np.stack(np.unravel_index(walls, around.grid.shape), axis=1)
+    cells = around.grid.cells(walls)
     faces = lines = 0
     for side, step in zip(sides, around.grid.steps(sides), strict=True):
         faces += int(np.count_nonzero(around.outside[walls + step]))
@@ -41,10 +44,9 @@ def evenness(symbiosis: Symbiosis) -> float:
     return float(lines / faces)
 
 
-def _lines(
-    cells: np.ndarray[tuple[int, ...], np.dtype[np.int64]], side: np.ndarray[tuple[int], np.dtype[np.int64]]
-) -> int:
-    """Count the lines along an offset that go through cells."""
+def _lines(cells: Ints, side: Ints) -> int:
+    """Count the lines along an offset that go through cells, by where they pass the offset's first axis."""
     axis = int(np.flatnonzero(side)[0])
-    on = cells - (cells[:, axis] * side[axis])[:, np.newaxis] * side  # each offset's entries are -1, 0 or 1
-    return len(np.unique(on, axis=0))
+    through = cells - (cells[:, axis] * side[axis])[:, np.newaxis] * side  # each offset's entries are -1, 0 or 1
+    one, other = np.delete(through, axis, axis=1).T
+    return len(np.unique(one * (int(np.ptp(other)) + 1) + other))

@@ -9,6 +9,8 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+from evaluators.blocks._kernels import touching
+from evaluators.space_syntax import Graph, of_edges
 from growth.blocks.lattice import Lattice
 
 Ints = NDArray[np.int64]
@@ -48,6 +50,10 @@ class Grid:
         """Give the places of cells, (n, 3) int64, that the grid was laid around: (n,) int64."""
         return self.steps(cells - self.low)
 
+    def cells(self, places: Ints) -> Ints:
+        """Give the cells at places, (n,) int64: (n, 3) int64."""
+        return np.asarray(np.stack(np.unravel_index(places, self.shape), axis=-1) + self.low, dtype=np.int64)
+
     def mask(self, places: Ints) -> Bytes:
         """Give 1 at some places and 0 elsewhere: (n,) uint8."""
         marked = np.zeros(self.inner.size, dtype=np.uint8)
@@ -81,3 +87,9 @@ def lay_out(lattice: Lattice, cells: Ints) -> Grid:
     inner = np.zeros(sides, dtype=np.uint8)
     inner[tuple(slice(int(m), side - int(m)) for m, side in zip(margin, sides, strict=True))] = 1
     return Grid(lattice, low, (sides[0], sides[1], sides[2]), inner.ravel())
+
+
+def graph_of(grid: Grid, places: Ints, offsets: Ints) -> Graph:
+    """Connect the cells at places, (n,) int64, with those of them that are an offset, (k, 3) int64, away."""
+    pairs, _ = touching(grid.cells(places), offsets, np.zeros(len(offsets), dtype=np.uint8))
+    return of_edges(pairs, places.size)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from evaluators.blocks._kernels import touching
-from evaluators.space_syntax import components, mean_depth, of_edges, ra, rra, total_depth
+from evaluators.space_syntax import mean_depth, ra, rra, total_depth
 from evaluators.symbiosis.symbiosis import Symbiosis
 
 UNMEASURED: Final = 1.0
@@ -26,12 +25,10 @@ def i_value(symbiosis: Symbiosis) -> float:
     float
         0 or more; 0 where all cells of each part touch each other, 1 without space.
     """
-    lattice, space = symbiosis.lattice, symbiosis.space
-    if not len(space):
+    around = symbiosis.surroundings
+    if not around.space.size:
         return UNMEASURED
-    pairs, _ = touching(space, lattice.offsets, lattice.contacts)
-    graph = of_edges(pairs, len(space))
-    component, sizes = components(graph)
-    own = sizes[component]
-    real = rra(ra(mean_depth(total_depth(graph), own), own), own)
+    part, sizes = around.parts
+    own = sizes[part]
+    real = rra(ra(mean_depth(total_depth(around.neighbours), own), own), own)
     return float(real.filled(UNMEASURED).mean())

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from evaluators.symbiosis.parts import labelled
-
-if TYPE_CHECKING:
-    from evaluators.symbiosis.surroundings import Surroundings
-    from evaluators.symbiosis.symbiosis import Symbiosis
+from evaluators.space_syntax import components
+from evaluators.symbiosis.grid import Grid, graph_of
 
 Ints = NDArray[np.int64]
+Bytes = NDArray[np.uint8]
 
 
 class Network(NamedTuple):
@@ -37,34 +35,34 @@ class Network(NamedTuple):
     doors: int
 
 
-def network(symbiosis: Symbiosis, around: Surroundings) -> Network | None:
+def network(grid: Grid, walked: Ints, space: Ints, outside: Bytes, walls: Bytes) -> Network:
     """Find the walkable part that touches most cells of the space; of equals, the one that grew first.
 
-    One walks between neighbours that are not straight above each other. The network is the route species' cells, or
-    the space's own where there is no route. Doors are open to those who walk.
+    One walks between neighbours that are not straight above each other; doors are open to those who walk.
 
-    Returns
-    -------
-    Network or None
-        None where there is neither route nor space.
+    Parameters
+    ----------
+    grid
+        Around all.
+    walked
+        (w,) int64, at least one, the places of the cells that may be walked, in the order in which they grew.
+    space
+        (s,) int64, the places of the space's cells.
+    outside, walls
+        (n,) uint8, over the grid's places.
     """
-    cells = symbiosis.route if len(symbiosis.route) else symbiosis.space
-    if not len(cells):
-        return None
-    lattice, grid = symbiosis.lattice, around.grid
-    level = lattice.offsets[:, :2].any(axis=1)
-    places = grid.places(cells)
-    labels = labelled(cells, lattice.offsets[level], lattice.contacts[level])
-    reach = np.concatenate([[0], grid.steps(lattice.offsets[level])])
+    level = grid.lattice.offsets[grid.lattice.offsets[:, :2].any(axis=1)]
+    labels, _ = components(graph_of(grid, walked, level))
+    reach = np.concatenate([[0], grid.steps(level)])
     owner = np.zeros(grid.inner.size, dtype=np.int32)
-    owner[places] = labels + 1
-    near = np.sort(owner[around.space[:, np.newaxis] + reach], axis=1)  # (s, steps + 1), 0 for no part
+    owner[walked] = labels + 1
+    near = np.sort(owner[space[:, np.newaxis] + reach], axis=1)  # (s, steps + 1), 0 for no part
     new = np.diff(near, axis=1, prepend=0) != 0
     main = int(np.bincount(near[new], minlength=labels.max() + 2)[1:].argmax())
-    own = places[labels == main]
+    own = walked[labels == main]
     return Network(
         own,
         (near == main + 1).any(axis=1),
-        bool(around.outside[own[:, np.newaxis] + reach].any()),
-        int(around.walls[own].sum()),
+        bool(outside[own[:, np.newaxis] + reach].any()),
+        int(walls[own].sum()),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from evaluators.symbiosis.parts import labelled
 from evaluators.symbiosis.symbiosis import Symbiosis
 
 
@@ -24,7 +23,7 @@ def route_joins(symbiosis: Symbiosis) -> float:
     main = symbiosis.surroundings.network
     if main is None or not len(symbiosis.space):
         return 0.0
-    labels = labelled(symbiosis.space, symbiosis.lattice.offsets, symbiosis.lattice.contacts)
+    labels, _ = symbiosis.surroundings.parts
     return float(np.isin(labels, labels[main.touched]).mean())
 
 

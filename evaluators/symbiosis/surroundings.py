@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, final
 import numpy as np
 from numpy.typing import NDArray
 
+from evaluators.space_syntax import Graph, components
 from evaluators.symbiosis import _kernels as kernels
-from evaluators.symbiosis.grid import Grid, lay_out
+from evaluators.symbiosis.grid import Grid, graph_of, lay_out
 from evaluators.symbiosis.network import Network, network
 from evaluators.symbiosis.settings import SymbiosisSettings
 from growth.blocks.lattice import FACE
@@ -27,16 +28,16 @@ Bytes = NDArray[np.uint8]
 class Surroundings:
     """Partners on a grid. What is not yet here is measured when it is first asked for.
 
+    It holds nothing that holds it, so that its grids are given back as soon as nobody asks for them.
+
     Attributes
     ----------
     grid
         Around all of them; arrays of (n,) below are over its places.
     walls
         (n,) uint8, 1 at cells of the enclosure that the space does not carve.
-    enclosure, space
-        (e,) and (s,) int64, their cells' places, in the order in which they grew.
-    partners
-        The cells themselves.
+    enclosure, space, route
+        (e,), (s,) and (r,) int64, their cells' places, in the order in which they grew.
     settings
         How they are measured.
     """
@@ -45,7 +46,7 @@ class Surroundings:
     walls: Bytes
     enclosure: Ints
     space: Ints
-    partners: Symbiosis
+    route: Ints
     settings: SymbiosisSettings
 
     @cached_property
@@ -77,9 +78,20 @@ class Surroundings:
         return len(self.grid.lattice.offsets)
 
     @cached_property
+    def neighbours(self) -> Graph:
+        """Give the space's cells as a graph of the lattice's neighbours."""
+        return graph_of(self.grid, self.space, self.grid.lattice.offsets)
+
+    @cached_property
+    def parts(self) -> tuple[Ints, Ints]:
+        """Give the connected part of each cell of the space, (s,) int64, and how many each has, (p,) int64."""
+        return components(self.neighbours)
+
+    @cached_property
     def network(self) -> Network | None:
         """Give the main walkable part of the routes, or of the space where there are none; None without either."""
-        return network(self.partners, self)
+        walked = self.route if self.route.size else self.space
+        return network(self.grid, walked, self.space, self.outside, self.walls) if walked.size else None
 
 
 def surroundings(symbiosis: Symbiosis) -> Surroundings:
@@ -93,7 +105,7 @@ def surroundings(symbiosis: Symbiosis) -> Surroundings:
         For partners that are so far apart, or so large, that no grid can be laid around them.
     """
     grid = lay_out(symbiosis.lattice, np.concatenate([symbiosis.enclosure, symbiosis.space, symbiosis.route]))
-    enclosure, space = grid.places(symbiosis.enclosure), grid.places(symbiosis.space)
+    enclosure, space, route = map(grid.places, (symbiosis.enclosure, symbiosis.space, symbiosis.route))
     walls = grid.mask(enclosure)
     walls[space] = 0
-    return Surroundings(grid, walls, enclosure, space, symbiosis, symbiosis.settings)
+    return Surroundings(grid, walls, enclosure, space, route, symbiosis.settings)

@@ -74,13 +74,9 @@ def _walls(cells: Ints, company: Cohabitants, *, flat: bool) -> tuple[Skin, Floa
 
 
 def _middle(cells: Ints, company: Cohabitants) -> float:
-    """Give the y of the plane that walls are cut at: the middle of what lives between them, never before all of them.
-
-    So much of the walls stands that something does, at least the row at the back.
-    """
-    inner = np.concatenate([company.space, company.route])
-    y = (inner if len(inner) else cells)[:, 1]
-    return float(min(0.5 * (y.min() + y.max()), cells[:, 1].max()))
+    """Give the y of the plane that walls are cut at: the middle of the space, never before all of the walls."""
+    inner = next((one for one in (company.space, company.route) if len(one)), cells)[:, 1]
+    return float(min(0.5 * (inner.min() + inner.max()), cells[:, 1].max()))
 
 
 def _laid_bare(part: Skin, kept: Ints, gone: Ints) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

@@ -108,14 +108,18 @@ def read_body_text(text: str, lattice: str) -> Cells:
     InputError
         For anything else.
     """
-    try:
-        data: Any = json.loads(text)
-    except (ValueError, RecursionError):
-        data = None
-    match data:
+    match plain(text):
         case {"lattice": str(name), "cells": [*rows], **more} if name == lattice and rows and not more:
             return np.array([as_cell(row) for row in rows], dtype=np.int64)
     raise InputError("body", f"a body on the lattice {lattice}, its cells in order of growth", describe(text))
+
+
+def plain(text: str) -> Any:  # noqa: ANN401 - plain data
+    """Read JSON; None where it is none."""
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return None
 
 
 def outside_of(body: Body) -> tuple[NDArray[np.float64], NDArray[np.int32]]:

@@ -12,6 +12,7 @@ from genome.errors import InputError
 from genome.settings import describe
 from growth.blocks.lattice import Ints, Lattice
 from growth.blocks.settings import FARTHEST
+from islands.kinds.bodies import plain
 
 
 def cells_text(role: Role, lattice: Lattice, cells: Ints) -> str:
@@ -28,11 +29,7 @@ def read_cells_text(text: str, lattice: Lattice) -> tuple[Role, Ints]:
     InputError
         For anything else.
     """
-    try:
-        data: Any = json.loads(text)
-    except (ValueError, RecursionError):
-        data = None
-    match data:
+    match plain(text):
         case {"role": str(role), "lattice": str(name), "cells": [*rows], **more} if (
             role in ROLES and name == lattice.name and not more and _are_cells(rows)
         ):

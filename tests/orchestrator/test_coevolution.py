@@ -85,6 +85,32 @@ def test_a_run_that_was_broken_off_goes_on_to_the_same_digest_and_measures(tmp_p
     assert told(again) == told(log)
 
 
+def test_a_host_that_is_lost_changes_neither(tmp_path) -> None:
+    data = write(tmp_path, arms())
+    log, _ = run_on_threads(tmp_path / "whole", data, 1)
+    lost = []
+
+    def losing(event, backend) -> None:
+        if isinstance(event, EpochDone) and event.epoch >= 5 and not lost:
+            lost.append(event.host)
+            backend.lose(event.host)
+
+    again, outcome = run_on_threads(tmp_path / "lost", data, 3, storm=1, meanwhile=losing)
+    assert (outcome.status, len(lost)) == ("finished", 1)
+    assert ask(again, "select count(*) from events where kind = 'recovery'").rows == [(1,)]
+    assert (digest(again), told(again)) == (digest(log), told(log))
+
+
+def test_an_async_run_replays_to_the_same_digest_and_measures(tmp_path) -> None:
+    data = write(tmp_path, arms())
+    settings = ("schedule=async", "checkpoint.every=99")
+    log, _ = run_on_threads(tmp_path, data, 4, *settings, storm=6)
+    assert digest(log) != digest(run(tmp_path, arms()).folder / "log")
+    again, _ = run_on_threads(tmp_path, data, 2, *settings, replay=log)
+    assert (digest(again), told(again), told(again, "late")) == (digest(log), told(log), told(log, "late"))
+    assert told(log, "late")
+
+
 def test_every_individual_replays_with_the_partners_that_it_was_mixed_with(tmp_path) -> None:
     folder = open_run(str(run(tmp_path, arms()).folder))
     nursery = Nursery(folder)
