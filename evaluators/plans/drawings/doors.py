@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from evaluators.plans.drawings.drawing import OUTSIDE, Opening, Point, Ring, Wall, leaf_of
 from evaluators.plans.drawings.inside import inside
 from evaluators.plans.layout import COMPASS, TOWARDS, Layout
+from evaluators.plans.ways import through_doors
 
 Floats = NDArray[np.float64]
 
@@ -146,10 +147,7 @@ def faces(wall: Wall, way: Point) -> bool:
 def _depths(layout: Layout) -> list[int]:
     """Give how many doors each room is from the entrance; from the room with most doors without one."""
     count = layout.plan.count
-    ways: list[list[int]] = [[] for _ in range(count)]
-    for first, second in layout.doors:
-        ways[first].append(second)
-        ways[second].append(first)
+    ways = through_doors(layout)
     entrance = layout.brief.entrance
     start = (
         max(range(count), key=lambda k: len(ways[k])) if entrance is None else list(layout.brief.rooms).index(entrance)
