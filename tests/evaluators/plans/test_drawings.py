@@ -86,6 +86,7 @@ def test_pieces_and_rings_are_the_walls_less_the_openings(tiling: str, seed: int
     rings = poche(found, ("door", "window"))
     signed = sum(shapely.Polygon(ring).area * (1 if shapely.LinearRing(ring).is_ccw else -1) for ring in rings)
     assert signed == pytest.approx(solid.area, abs=1e-4)
+    assert sum(shapely.LinearRing(ring).length for ring in rings) == pytest.approx(solid.length, abs=1e-4)
     assert len(rings) == len(shapely.get_parts(solid.buffer(-1e-6))) + sum(
         len(part.interiors) for part in shapely.get_parts(solid.buffer(-1e-6))
     )
