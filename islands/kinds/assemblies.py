@@ -233,7 +233,7 @@ class AssemblyBiology:
             return part_text(self._name, genotype)
         if kind == "migrants":
             return encode(genotype)
-        layout = self._layout(genotype)
+        layout = self.layout(genotype)
         if isinstance(layout, Failure):
             raise InputError("offer", "a genotype that grows to a plan", str(layout))
         if kind == "surroundings":
@@ -245,7 +245,8 @@ class AssemblyBiology:
         """Draw a plan; see :mod:`islands.kinds.plans`."""
         return write_plans(genotype, form_of(genotype, self._tiling), self._brief, stem, formats, facts)
 
-    def _layout(self, genotype: Assembly) -> Layout | Failure:
+    def layout(self, genotype: Assembly) -> Layout | Failure:
+        """Grow a plan and lay it out for its brief."""
         names = list(self._genome.parts.values())
         for part, rooms in zip(genotype.parts, names, strict=True):
             inner = part.genotype
@@ -257,7 +258,7 @@ class AssemblyBiology:
 
     def _scored(self, genotype: Assembly, partners: tuple[Migrant, ...]) -> Evaluation:
         started = self._clock()
-        layout = self._layout(genotype)
+        layout = self.layout(genotype)
         if isinstance(layout, Failure):
             return self._scoring.failed(layout, started)
         grown = self._clock()

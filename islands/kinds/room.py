@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
-from evaluators.plans import Brief
+from evaluators.plans import Brief, Layout, laid_out
 from evaluators.rooms import ROOM_CRITERIA, resolve, score
 from genome.polyform import Conjoining, Room, crossover, decode_room, encode
 from genome.settings import Settings
@@ -141,10 +141,16 @@ class RoomBiology:
 
     def write_forms(self, genotype: Room, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
         """Draw a room; see :mod:`islands.kinds.plans`."""
+        return write_plans(genotype, form_of(genotype, self._tiling), self._brief(), stem, formats, facts)
+
+    def layout(self, genotype: Room) -> Layout | Failure:
+        """Grow a room and lay it out as a plan of its own."""
         plan = form_of(genotype, self._tiling)
+        return plan if isinstance(plan, Failure) else laid_out(plan, self._brief())
+
+    def _brief(self) -> Brief:
         rooms = {self._name: {"cells": self._genome.cells}}
-        brief = Brief.model_validate({"tiling": self._genome.tiling, "unit": self._growth.unit, "rooms": rooms})
-        return write_plans(genotype, plan, brief, stem, formats, facts)
+        return Brief.model_validate({"tiling": self._genome.tiling, "unit": self._growth.unit, "rooms": rooms})
 
     def _scored(self, genotype: Room, partners: tuple[Migrant, ...]) -> Evaluation:
         started = self._clock()

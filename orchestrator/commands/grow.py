@@ -14,6 +14,7 @@ from orchestrator.commands._options import emit, example, json_option
     epilog=example(
         "atoll grow experiments/systems/square.hemls --steps 4 -o square.glb",
         "atoll grow experiments/systems/triangle.hemls --environment site.env.yaml --set scale=1.3 --json",
+        "atoll grow experiments/systems/house.plan -o house.dxf",
         "atoll grow experiments/systems/arch.blocks --set load.axial_strength=30 --forces -o arch.png",
     ),
 )
@@ -25,7 +26,8 @@ from orchestrator.commands._options import emit, example, json_option
 @click.option("--seed", type=click.IntRange(min=0), help="For systems that draw at random, in place of their own.")
 @click.option("--forces", is_flag=True, help="For block bodies: what each joint carries; the form is coloured by it.")
 @click.option("-o", "output", type=click.Path(path_type=Path, dir_okay=False),
-              help="The form's file: .glb, .obj, .stl or .png; .ply for surfaces, .npz for block bodies.")  # fmt: skip
+              help="The form's file: .glb or .png; .obj, .stl, .ply (surfaces), .npz (block bodies), "
+              ".svg, .dxf, .ifc, .json (plans).")  # fmt: skip
 @json_option
 def command(
     file: Path,

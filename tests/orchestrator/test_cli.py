@@ -117,10 +117,10 @@ def test_bad_input_is_one_message_and_exit_code_two(tmp_path, done) -> None:
     refused(atoll("replay", done, "--id", 10**15), "--id: expected an individual of the log")
     refused(atoll("export", done, "--format", "doc", "-o", tmp_path / "forms"), "--format")
     refused(atoll("grow", tmp_path / "none.hemls"), "expected a rule file, got no such file")
-    for suffix in (".tl", ".plan"):
+    for suffix in (".tl",):
         refused(atoll("grow", f"x{suffix}"), f"'{suffix}', which comes later")
         refused(atoll("check", f"x{suffix}"), f"'{suffix}', which comes later")
-    refused(atoll("grow", "x.txt"), "expected a rule file (.hemls, .blocks, .body.json)")
+    refused(atoll("grow", "x.txt"), "expected a rule file (.hemls, .blocks, .body.json, .plan)")
     refused(atoll("check", tmp_path / "none.txt"), "no such file")
     assert atoll("run").exit_code == 2
     assert atoll("bogus").exit_code == 2
