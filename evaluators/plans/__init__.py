@@ -5,9 +5,10 @@ Rosenman 1997, section 3.3.1.
 
 from evaluators.plans.brief import Adjacency, Brief, RoomWish, Side, SiteWish
 from evaluators.plans.layout import Door, Layout, laid_out
-from evaluators.plans.registry import PLAN_CRITERIA, resolve, score
+from evaluators.plans.registry import COSTLY, PLAN_CRITERIA, resolve, score
 
 __all__ = [
+    "COSTLY",
     "PLAN_CRITERIA",
     "Adjacency",
     "Brief",

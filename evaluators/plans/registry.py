@@ -13,6 +13,7 @@ from evaluators.plans.layout import Layout
 from evaluators.plans.light import daylight, orientation, street, view
 from evaluators.plans.shapes import proportions
 from evaluators.plans.site import site
+from evaluators.plans.syntax import i_value
 from evaluators.plans.ways import circulation, reachable
 from evaluators.plugins import find_function
 from growth.protocol import Failure
@@ -28,6 +29,7 @@ PLAN_CRITERIA: Final[Mapping[str, PlanCriterion]] = MappingProxyType(
         "circulation": circulation,
         "corners": corners,
         "daylight": daylight,
+        "i_value": i_value,
         "met": met,
         "orientation": orientation,
         "perimeter": perimeter,
@@ -40,6 +42,9 @@ PLAN_CRITERIA: Final[Mapping[str, PlanCriterion]] = MappingProxyType(
     }
 )
 """The project's own."""
+
+COSTLY: Final = ("i_value",)
+"""Criteria that take longer than all others together, and are measured where they have a goal."""
 
 
 def resolve(name: str, where: str = "fitness") -> PlanCriterion:

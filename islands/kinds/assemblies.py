@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
-from evaluators.plans import PLAN_CRITERIA, Brief, Layout, laid_out, resolve, score
+from evaluators.plans import COSTLY, PLAN_CRITERIA, Brief, Layout, laid_out, resolve, score
 from evaluators.plans.adjacency import met
 from genome.errors import InputError
 from genome.polyform import Assembly, Attachment, Part, Room, crossover, decode_assembly, encode
@@ -32,7 +32,7 @@ from islands.kinds.room import FRESH, SECONDS, part_of, shape_distances, shape_d
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
-PLAN: Final = Criteria(tuple(PLAN_CRITERIA), resolve, score)
+PLAN: Final = Criteria(tuple(name for name in PLAN_CRITERIA if name not in COSTLY), resolve, score)
 """How plans are measured."""
 
 STOREY: Final = 3.0
@@ -130,7 +130,7 @@ class AssemblyBiology:
         self._parts: Final = {name: tuple((parts or {}).get(name, ())) for name in self._genome.parts}
         self._scoring: Final = Scoring(spec.fitness, PLAN, (FRESH,), spec.where, clock)
         for name in self._growth.required:
-            if name not in PLAN_CRITERIA:
+            if name not in PLAN.usual and name not in spec.fitness:
                 remedy = near(name, list(PLAN_CRITERIA))
                 raise InputError(spec.where("growth", "required", name), "a criterion of plans", f"'{name}'", remedy)
         self.scoring: Final = self._scoring.key(spec.kind, self._growth.model_dump(mode="json"))

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -168,3 +169,13 @@ def test_cells_of_all_tilings_lie_in_an_outline_with_all_corners() -> None:
     assert (counts["square"], counts["cube"]) == (36, 36)
     assert 0.7 * 36 / TRIANGLE.area < counts["triangle"] < 36 / TRIANGLE.area
     assert 0.4 * 36 / HEXAGON.area < counts["hexagon"] < 36 / HEXAGON.area
+
+
+def test_the_i_value_is_the_mean_rra_over_the_doors() -> None:
+    path = [["a", "b"], ["b", "c"], ["c", "d"]]
+    # A path of four: RA 1 at its ends and 1/3 between, D_4 = .3333 by the formula of semantics.md, section 3.
+    d4 = 2 * (4 * (math.log2(6 / 3) - 1) + 1) / (3 * 2)
+    assert scored(ROW, adjacencies=path)["i_value"] == pytest.approx((2 * 1 + 2 * (1 / 3)) / 4 / d4)
+    assert scored(ROW)["i_value"] == 1.0
+    star = scored("aaa bcd", adjacencies=[["a", "b"], ["a", "c"], ["a", "d"]])["i_value"]
+    assert star < scored(ROW, adjacencies=path)["i_value"]
