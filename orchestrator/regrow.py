@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +11,7 @@ from typing import Any
 
 from evaluators.plans import Layout
 from genome.errors import InputError
+from genome.settings import near
 from growth.protocol import Failure
 from islands.biologies import Biologies
 from islands.forms import written
@@ -70,6 +72,24 @@ def by_id(folder: RunFolder, ids: Sequence[int]) -> list[Logged]:
             remedy = 'find one with: atoll query RUN "select id, fitness from individuals order by fitness desc"'
             raise InputError("--id", "an individual of the log", str(identity), remedy)
     return [found[identity] for identity in ids]
+
+
+def islands_named(folder: RunFolder, names: Sequence[str]) -> list[str]:
+    """Give the islands of a log that have these names, or are of groups that do.
+
+    Raises
+    ------
+    InputError
+        For a name that no island and no group has.
+    """
+    known = [str(name) for (name,) in ask(folder.log, "select distinct island from individuals order by island").rows]
+    found: dict[str, None] = {}
+    for name in names:
+        meant = [one for one in known if one == name or re.fullmatch(rf"{re.escape(name)}-[0-9]+", one)]
+        if not meant:
+            raise InputError("--island", "an island of this run, or a group", f"'{name}'", near(name, known))
+        found.update(dict.fromkeys(meant))
+    return list(found)
 
 
 def best(folder: RunFolder, count: int, islands: Sequence[str] = ()) -> list[Logged]:

@@ -370,6 +370,15 @@ def test_show_tells_nothing_stale_of_a_deme_that_is_all_invalid_now(tmp_path) ->
     assert (island["generation"], island["best"], island["mean"], island["invalid"]) == (1, None, None, 12)
 
 
+def test_export_takes_the_best_of_islands_and_of_groups(done, tmp_path) -> None:
+    names = [path.stem for path in (Path(done) / "forms").iterdir()]
+    island = max(name.split("-best")[0] for name in names)
+    told = last_json(atoll("export", done, "--island", island, "--format", "txt", "-o", tmp_path / "x", "--json"))
+    (file,) = told["files"]
+    assert Path(file).name.startswith(f"{island}-")
+    refused(atoll("export", done, "--island", "nowhere", "--format", "txt", "-o", tmp_path / "y"), "--island")
+
+
 def test_an_export_that_fails_leaves_no_folder_and_one_that_cannot_be_written_is_bad_input(done, tmp_path) -> None:
     refused(atoll("export", done, "--format", "xyz", "-o", tmp_path / "a" / "b"), "--format")
     refused(atoll("export", done, "--id", 10**15, "-o", tmp_path / "a"), "--id")
