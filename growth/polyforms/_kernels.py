@@ -135,23 +135,21 @@ def fits_plane(cell: Ints, grid: Bytes, meets: Bytes, reach: int, steps: Ints, a
     """
     kind = cell[2] if steps.shape[0] > 1 else 0
     shift = reach + 1
-    rises = 0
-    touching = False
-    first = False
-    before = False
+    y, x = corner_spot(cell, 0, corners, lattice, reach)
+    y, x = y - corners[kind, 0, 1], x - corners[kind, 0, 0]
+    # Sums of 0 and 1 in place of conditions, which no processor could foresee.
+    rises, touching, first, before = 0, 0, 0, 0
     for k in range(around.shape[1]):
-        y, x = corner_spot(cell, k, corners, lattice, reach)
-        corner = meets[y, x] > 0
+        corner = 1 if meets[y + corners[kind, k, 1], x + corners[kind, k, 0]] else 0
         way = around[kind, k]
         z = cell[2] + steps[kind, way, 2]
-        edge = grid[z, cell[1] + steps[kind, way, 1] + shift, cell[0] + steps[kind, way, 0] + shift] != 0
-        rises += (corner and not before and k > 0) + (edge and not corner)
-        touching = touching or corner or edge
-        if k == 0:
-            first = corner
+        edge = 1 if grid[z, cell[1] + steps[kind, way, 1] + shift, cell[0] + steps[kind, way, 0] + shift] else 0
+        rises += corner * (1 - before) + edge * (1 - corner)
+        touching += corner + edge
+        first = corner if k == 0 else first
         before = edge
-    rises += first and not before
-    return rises == 1 or not touching
+    rises -= first * before
+    return rises == 1 or touching == 0
 
 
 @njit(cache=True)
@@ -221,7 +219,7 @@ def fits_space(cell: Ints, grid: Bytes, reach: int) -> bool:
     return _one_piece(rim, 1) and _one_piece(rim, 0)
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")  # a call with so many arrays costs more than the work
 def fits(cell: Ints, grid: Bytes, meets: Bytes, reach: int, steps: Ints, around: Ints, corners: Ints,
          lattice: Ints) -> bool:  # fmt: skip
     """Tell whether the form stays a disc, or a ball, with this cell."""
@@ -301,7 +299,7 @@ def conjoin(joins: Ints, force: int, mend: int, state: State, first: int, steps:
     return cells, made, DONE, 0
 
 
-@njit(cache=True)
+@njit(cache=True, inline="always")
 def _joined(cells: Ints, count: int, join: Ints, grid: Bytes, meets: Bytes, reach: int, steps: Ints, around: Ints,
             corners: Ints, lattice: Ints) -> int:  # fmt: skip
     """Write the cell that a conjoining adds behind the others, and say whether it fits."""
