@@ -110,6 +110,9 @@ class BriefSettings(Brief):
         for room in self.rooms:
             if room not in seen:
                 raise InputError("", "each room in a zone", f"'{room}' in none", "name it under zones")
+        if self.room.required:
+            got = ", ".join(self.room.required)
+            raise InputError("", "'required' of zones and houses alone", f"of rooms: {got}", "make it a goal of rooms")
         if HOUSE in self.rooms:
             raise InputError("", "rooms that are not named as the house is", f"'{HOUSE}'", "choose another name")
         return self

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import BeforeValidator, Field, StringConstraints, WithJsonSchema, model_validator
 
+from evaluators.plans.ground import room_for
 from genome.errors import InputError
 from genome.settings import Settings, describe, near
 from growth.outline import Outline, as_outline
@@ -18,6 +19,11 @@ RoomName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", 
 
 MOST_CELLS = 2000
 """Of a house."""
+
+LARGEST_SITE = 250_000
+"""The box around a site, in edges of cells squared."""
+
+LARGER = "give the site a larger outline, or the rooms fewer cells"
 
 
 class Adjacency(NamedTuple):
@@ -147,9 +153,18 @@ class Brief(Settings):
         if self.site.outline is not None:
             needed, there = total * self.cells.area, self.site.outline.area
             if needed > there + 1e-9:
-                raise InputError("", f"a site that holds the rooms' area of {needed:g}", f"one of {there:g}",
-                                 "give the site a larger outline, or the rooms fewer cells")  # fmt: skip
+                raise InputError("", f"a site that holds the rooms' area of {needed:g}", f"one of {there:g}", LARGER)
+            self._check_site(self.site.outline, total)
         return self
+
+    def _check_site(self, outline: Outline, total: int) -> None:
+        width, depth = (max(axis) - min(axis) for axis in zip(*outline.points, strict=True))
+        if width * depth > LARGEST_SITE:
+            raise InputError("", f"a site within {LARGEST_SITE:,} edges squared", f"{width:g} by {depth:g}")
+        room = room_for(outline, self.tiling)
+        if room < total and self.tiling != "cube":
+            got = f"one in which {room} lie whole"
+            raise InputError("", f"a site that holds the rooms' {total} cells", got, LARGER)
 
     @property
     def cells(self) -> Tiling:

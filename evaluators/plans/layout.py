@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from evaluators.plans import _kernels
 from evaluators.plans.brief import Brief, Side
-from growth.outline import Outline
+from evaluators.plans.ground import ground
 from growth.polyforms.polyform import Plan
 from growth.polyforms.tiling import TILINGS, Tiling
 
@@ -129,27 +129,3 @@ def outward(tiling: Tiling) -> NDArray[np.float64]:
 
 def _middle(tiling: Tiling, cell: Ints) -> NDArray[np.float64]:
     return np.asarray((tiling.vertices(cell[None]) @ tiling.positions.T)[0].mean(axis=0))
-
-
-@lru_cache(maxsize=64)
-def ground(outline: Outline, tiling: str) -> tuple[NDArray[np.uint8], Ints]:
-    """Give which cells lie in an outline with all their corners: (layers, rows, columns) uint8, and the first one.
-
-    Cubes count by their floors.
-    """
-    cells = TILINGS[tiling]
-    points = np.array(outline.points)
-    basis = (cells.positions @ cells.lattice)[:2, :2]
-    box = np.array(
-        [(x, y) for x in (points[:, 0].min(), points[:, 0].max()) for y in (points[:, 1].min(), points[:, 1].max())]
-    )
-    there = np.linalg.solve(basis, box.T).T
-    low, high = np.floor(there.min(axis=0)).astype(np.int64) - 1, np.ceil(there.max(axis=0)).astype(np.int64) + 1
-    rows, columns = np.meshgrid(np.arange(low[1], high[1] + 1), np.arange(low[0], high[0] + 1), indexing="ij")
-    inside = np.zeros((cells.types, *rows.shape), dtype=np.uint8)
-    for kind in range(cells.types):
-        every = np.stack([columns.ravel(), rows.ravel(), np.full(rows.size, kind)], axis=1)
-        corners = cells.vertices(every) @ cells.positions.T
-        held = outline.holds(corners.reshape(-1, 3)[:, :2]).reshape(len(every), -1).all(axis=1)
-        inside[kind] = held.reshape(rows.shape)
-    return inside, low

@@ -96,6 +96,9 @@ def test_own_islands_and_channels_join() -> None:
         ({"site": {"outline": [[0, 0], [3, 0], [3, 3], [0, 3]]}}, "a site that holds the rooms' area of 15"),
         ({"rooms": {**BRIEF["rooms"], "bed": {"cells": 0}}}, "x.yaml: brief.rooms.bed.cells: expected a whole number"),
         ({"order": "random"}, "x.yaml: brief.order"),
+        ({"room": {"required": {"corners": 4.0}}}, "'required' of zones and houses alone, got of rooms: corners"),
+        ({"site": {"outline": [[0, 0], [30, 0], [30, 0.9], [0, 0.9]]}}, "got one in which 0 lie whole"),
+        ({"site": {"outline": [[0, 0], [9000, 0], [9000, 90]]}}, "got 9000 by 90"),
         ({"room": {"fitness": {}}}, "x.yaml: brief.room.fitness"),
     ],
 )

@@ -219,7 +219,8 @@ def abbreviations(names: Sequence[str]) -> dict[str, str]:
         taken = list(found.values())
         for name, short in list(found.items()):
             if taken.count(short) > 1:
-                found[name] = name[:letters].capitalize()
+                first, *rest = [word for word in name.split("_") if word] or [name]
+                found[name] = first[:letters].capitalize() + "".join(word[0].upper() for word in rest)
         letters += 1
     return found
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Sequence
 from typing import Final
 
@@ -17,6 +18,8 @@ WIDTH: Final = 297.0
 MARGIN: Final = 10.0
 GAP: Final = 8.0
 HEAD: Final = 12.0
+LETTERS: Final = 180
+"""Of a line of the legend."""
 MOST: Final = 48
 """Plans of a sheet."""
 
@@ -56,9 +59,11 @@ def sheet(drawings: Sequence[Drawing], title: str) -> Paper:
         marks += plan(one, pen, short)
         marks.append(Words("caption", one.title, (left + cell / 2, top + tall + 5.0), 2.6))
     rows = math.ceil(len(drawings) / columns)
-    height = MARGIN + HEAD + rows * (tall + GAP + 6.0) + MARGIN
-    told = ", ".join(f"{one} {name.replace('_', ' ')}" for name, one in short.items())
-    marks.append(Words("note", told, (MARGIN, height - MARGIN + 2.0), 2.6, "start", colour=PALE))
+    foot = MARGIN + HEAD + rows * (tall + GAP + 6.0)
+    told = textwrap.wrap(", ".join(f"{one} {name.replace('_', ' ')}" for name, one in short.items()), LETTERS)
+    for number, line in enumerate(told):
+        marks.append(Words("note", line, (MARGIN, foot + 2.0 + 4.0 * number), 2.6, "start", colour=PALE))
+    height = foot + MARGIN + 4.0 * (len(told) - 1)
     back = Fill("paper", (((0.0, 0.0), (WIDTH, 0.0), (WIDTH, height), (0.0, height)),), PAPER)
     return Paper(title, WIDTH, height, (back, *marks))
 

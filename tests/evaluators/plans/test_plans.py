@@ -106,6 +106,9 @@ def test_a_plan_is_put_where_it_fits_its_site() -> None:
     assert layout.place.shift == (10, 10)
     slim = judged("aab aac", site={"outline": [[10, 10], [11.99, 10], [11.99, 20], [10, 20]]})
     assert score(slim, PLAN_CRITERIA)["site"] == pytest.approx(2 / 6)  # type: ignore[index]
+    # A slot narrower than a cell runs into the third one, whose corners all lie on the site.
+    slot = [[0, 0], [4, 0], [4, 4], [2.6, 4], [2.5, 0.05], [2.4, 4], [0, 4]]
+    assert score(judged("aaab", site={"outline": slot}), PLAN_CRITERIA)["site"] == pytest.approx(3 / 4)  # type: ignore[index]
     with pytest.raises(InputError, match="a site that holds the rooms' area of 6"):
         judged("aab aac", site={"outline": room})
 
