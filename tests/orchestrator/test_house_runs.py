@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 import pytest
+from hosts import run_on_threads
 
 from experiments import Silent, run, write
 from orchestrator.digest import digest
@@ -71,11 +72,13 @@ def test_levels_together_take_better_parts_as_they_come(tmp_path) -> None:
     assert all(same(one, nursery.score(one)) for one in by_id(folder, everyone))
 
 
-@pytest.mark.ray
 def test_the_log_is_the_same_on_any_hosts(tmp_path) -> None:
-    inline = folder_of(tmp_path, small(), "epochs=4", name="inline")
-    hosts = folder_of(tmp_path, small(), "epochs=4", "backend=ray", "hosts=2", "schedule=dataflow", name="hosts")
-    assert digest(hosts.log) == digest(inline.log)
+    data = small()
+    inline = folder_of(tmp_path, data, "epochs=4", name="inline")
+    path = write(tmp_path, {**data, "epochs": 4, "schedule": "dataflow"}, "threads.yaml")
+    for hosts in (1, 2):
+        log, _ = run_on_threads(tmp_path, path, hosts)
+        assert digest(log) == digest(inline.log), hosts
 
 
 @pytest.mark.parametrize("levels", ["in_turn", "together"])

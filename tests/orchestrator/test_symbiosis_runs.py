@@ -148,7 +148,7 @@ def test_an_evolved_body_is_a_site_that_no_wall_enters(tmp_path) -> None:
 
 def test_a_run_of_which_all_are_invalid_ends_and_says_so(tmp_path) -> None:
     data = house(epochs=1)
-    data["islands"]["rooms"]["growth"] = {"least": 61}
+    data["islands"]["rooms"]["growth"] = {"least": 2000, "max_blocks": 2000}
     outcome = run(tmp_path, data)
     folder = open_run(str(outcome.folder))
     assert outcome.status == "finished"
