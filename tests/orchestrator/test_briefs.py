@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from experiments import write
 from genome.errors import InputError
 from orchestrator.briefs import by_weight, expanded
 
@@ -110,3 +111,24 @@ def test_wrong_briefs_are_refused(more: dict[str, Any], message: str) -> None:
 def test_without_a_brief_nothing_changes() -> None:
     data = {"name": "x", "islands": {"a": 1}, "channels": []}
     assert expanded(data, "x.yaml") == data
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (
+            {"zone": {"required": {"beauty": 1.0}}},
+            "brief: expected a criterion of plans, got 'beauty' (in what the brief",
+        ),
+        ({"room": {"select": "nicest"}}, "(in what the brief becomes: channels.0.select)"),
+        ({"house": {"fitness": {"beauty": {"goal": "maximise"}}}}, "islands.house.fitness.beauty)"),
+    ],
+)
+def test_what_is_wrong_with_islands_of_a_brief_is_told_of_the_brief(
+    tmp_path, more: dict[str, Any], message: str
+) -> None:
+    path = write(tmp_path, {"name": "x", "brief": {**BRIEF, **more}})
+    with pytest.raises(InputError) as caught:
+        checked(path)
+    assert message in str(caught.value)
+    assert "brief" in caught.value.where
