@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,6 +10,8 @@ import pytest
 from experiments import write
 from genome.errors import InputError
 from orchestrator.briefs import by_weight, expanded
+from orchestrator.loading import load_experiment
+from orchestrator.run import prepare
 
 BRIEF: dict[str, Any] = {
     "rooms": {"bath": {"cells": 2}, "hall": {"cells": 3}, "living": {"cells": 6}, "bed": {"cells": 4}},
@@ -111,6 +114,15 @@ def test_wrong_briefs_are_refused(more: dict[str, Any], message: str) -> None:
 def test_without_a_brief_nothing_changes() -> None:
     data = {"name": "x", "islands": {"a": 1}, "channels": []}
     assert expanded(data, "x.yaml") == data
+
+
+def checked(path: Path) -> None:
+    """Check an experiment as ``atoll check`` does."""
+    loaded = load_experiment(path)
+    try:
+        prepare(loaded)
+    except InputError as error:
+        raise loaded.locate(error) from None
 
 
 @pytest.mark.parametrize(
