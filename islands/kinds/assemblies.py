@@ -25,10 +25,10 @@ from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.measures import Criteria, Scoring
 from islands.kinds.meshes import mesh_text
-from islands.kinds.parts import DEMAND, demand_text, part_text, read_demand_text, read_part_text
+from islands.kinds.parts import DEMAND, demand_text, part_text, read_part_text
 from islands.kinds.plans import write_plans
 from islands.kinds.protocol import Facts, Keep
-from islands.kinds.room import FRESH, SECONDS, part_of, shape_distances, shape_diversity
+from islands.kinds.room import FRESH, SECONDS, freshness, part_of, shape_distances, shape_diversity
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
@@ -262,7 +262,7 @@ class AssemblyBiology:
         if isinstance(layout, Failure):
             return self._scoring.failed(layout, started)
         grown = self._clock()
-        more = {FRESH: self._freshness(layout.plan, partners)} if partners else {FRESH: 0.0}
+        more = {FRESH: freshness(layout.plan, self._name, partners)}
         return self._eliminated(self._scoring.of(layout, more, started, grown))
 
     def _eliminated(self, found: Evaluation) -> Evaluation:
@@ -273,17 +273,6 @@ class AssemblyBiology:
                 why = str(Failure("constraint", f"{name} {scores[name]:g} where {least:g} is required"))
                 return Evaluation(None, found.scores, why, found.growth_ms, found.evaluation_ms, found.notes)
         return found
-
-    def _freshness(self, plan: Plan, partners: tuple[Migrant, ...]) -> float:
-        found = []
-        for one in partners:
-            demand = read_demand_text(one.text)
-            used = demand.parts.get(self._name)
-            shape = None if used is None else form_of(used, self._tiling)
-            if demand.met < 1.0 and isinstance(shape, Plan):
-                apart = shape_diversity([plan, shape])
-                found.append((1.0 - demand.met) * (apart or 0.0))
-        return min(found, default=0.0)
 
 
 def _in_order(brief: Brief, rooms: Sequence[str], spec: IslandSpec) -> Brief:

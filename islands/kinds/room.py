@@ -158,18 +158,29 @@ class RoomBiology:
         if isinstance(form, Failure):
             return self._scoring.failed(form, started)
         grown = self._clock()
-        return self._scoring.of(form, {FRESH: self._freshness(form, partners)}, started, grown)
+        return self._scoring.of(form, {FRESH: freshness(form, self._name, partners)}, started, grown)
 
-    def _freshness(self, form: Polyform, partners: tuple[Migrant, ...]) -> float:
-        """Give the least distance from the shapes that unsatisfied upper islands use, times what they miss."""
-        found = []
-        for one in partners:
-            demand = read_demand_text(one.text)
-            used = demand.parts.get(self._name)
-            shape = None if used is None else form_of(used, self._tiling)
-            if demand.met < 1.0 and isinstance(shape, Plan):
-                found.append((1.0 - demand.met) * float(distances([form, Polyform(self._tiling, shape.cells)])[0, 1]))
-        return min(found, default=0.0)
+
+def freshness(form: Polyform | Plan, name: str, partners: Sequence[Migrant]) -> float:
+    """Give the least distance from the parts of this name that unsatisfied upper islands use, times what they miss.
+
+    Parameters
+    ----------
+    form
+        A part of this name.
+    name
+        Its name.
+    partners
+        What upper islands show, see :mod:`islands.kinds.parts`.
+    """
+    found = []
+    for one in partners:
+        demand = read_demand_text(one.text)
+        used = demand.parts.get(name)
+        shape = None if used is None else form_of(used, form.tiling)
+        if demand.met < 1.0 and isinstance(shape, Plan):
+            found.append((1.0 - demand.met) * float(distances([form, shape])[0, 1]))
+    return min(found, default=0.0)
 
 
 def shape_distances(forms: Sequence[Plan | Failure]) -> NDArray[np.float64]:
