@@ -48,7 +48,8 @@ $(RUN_READY): requirements.lock pyproject.toml | $(BIN)/python
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@echo "Compiling the kernels ..."
-	@$(BIN)/python -m growth.warm && $(BIN)/python -m evaluators.blocks.warm && $(BIN)/python -m evaluators.symbiosis.warm
+	@$(BIN)/python -m growth.warm && $(BIN)/python -m evaluators.blocks.warm && $(BIN)/python -m evaluators.symbiosis.warm \
+		&& $(BIN)/python -m evaluators.plans.warm
 	@touch $@
 
 $(TEST_READY): $(RUN_READY) requirements-dev.lock

@@ -11,6 +11,7 @@ NAMES = (
     "timed_rewriting",
     "symbiosis_measures",
     "space_syntax",
+    "houses",
     "bnf_mapping",
     "mesh_queries",
     "start",

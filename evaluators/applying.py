@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass
+from functools import lru_cache
 from numbers import Real
 from typing import Any, TypeVar
 
@@ -33,8 +34,9 @@ def applied(criteria: Mapping[str, Callable[..., float]], *seen: object) -> dict
     scores: dict[str, float] = {}
     for name, criterion in criteria.items():
         try:
-            value: object = criterion(*seen)
-            if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
+            value: Any = criterion(*seen)
+            # Most give a float, and to ask an abstract class costs as much as a small criterion.
+            if type(value) is not float and (isinstance(value, (bool, np.bool_)) or not isinstance(value, Real)):
                 return Failure("evaluation", f"{name}: a number was expected, not {type(value).__name__}")
             number = float(value)
         except BaseException as error:  # noqa: BLE001 - a criterion, a plug-in above all, may fail in any way
@@ -48,10 +50,16 @@ def applied(criteria: Mapping[str, Callable[..., float]], *seen: object) -> dict
 
 def read_only(value: T) -> T:
     """Give a frozen dataclass with views of its arrays that cannot be written to."""
-    assert is_dataclass(value)
-    assert not isinstance(value, type)
-    arrays = {field.name: getattr(value, field.name) for field in fields(value)}
-    return replace(value, **{name: _locked(one) for name, one in arrays.items() if isinstance(one, np.ndarray)})
+    kind: Any = type(value)
+    kept = {name: getattr(value, name) for name in _names(kind)}
+    made: T = kind(**{name: _locked(one) if isinstance(one, np.ndarray) else one for name, one in kept.items()})
+    return made
+
+
+@lru_cache(maxsize=64)
+def _names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a class, which mypy holds for unhashable
+    assert is_dataclass(kind)
+    return tuple(field.name for field in fields(kind) if field.init)
 
 
 def _locked(array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

@@ -40,7 +40,7 @@ class Failure:
     ----------
     reason
         One of the words that logs are searched by: ``mapping``, ``rules``, ``budget``, ``clock``, ``diverged``,
-        ``boundary``, ``evaluation``, ``load``, ``unstable``, ``expression``.
+        ``boundary``, ``evaluation``, ``load``, ``unstable``, ``empty``, ``small``, ``expression``.
     detail
         A sentence that says what happened.
     """

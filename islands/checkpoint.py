@@ -26,8 +26,11 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 FOLDER: Final = "checkpoints"
-VERSION: Final = "1"
+VERSION: Final = "2"
 """Of the part files and of the file that makes a checkpoint whole."""
+
+READABLE: Final = ("1", VERSION)
+"""Version 1 has no outcomes of pairings and no watched channels, which no island had then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,15 +176,22 @@ def read_parts(store: Store, parts: Iterable[Part], islands: Iterable[Island[Any
 
 # -- writing ---------------------------------------------------------------------------------------------------------
 
-_REPEATED: Final = ["scores.list.element.key_value.key", "errors.list.element", "since.list.element"]
-_FLOATS: Final = ["fitness.list.element", "scores.list.element.key_value.value"]
+_REPEATED: Final = [
+    "scores.list.element.key_value.key", "errors.list.element", "since.list.element",
+    "outcomes.list.element.key_value.key",
+]  # fmt: skip
+_FLOATS: Final = [
+    "fitness.list.element",
+    "scores.list.element.key_value.value",
+    "outcomes.list.element.key_value.value",
+]
 
 
 def _schema() -> pa.Schema:
     import pyarrow as pa
 
     scores = pa.map_(pa.string(), pa.float64())
-    types = (pa.int64(), pa.string(), pa.float64(), scores, pa.string(), pa.int64())
+    types = (pa.int64(), pa.string(), pa.float64(), scores, pa.string(), pa.int64(), scores)
     deme = [(name, pa.list_(kind)) for name, kind in zip(MEMBER, types, strict=True)]
     columns = [("island", pa.int64()), ("name", pa.string()), *deme, ("state", pa.string()), ("pending", pa.string())]
     return pa.schema(columns, metadata={"atoll.checkpoint": VERSION})
@@ -240,7 +250,7 @@ def _read(file: str, content: bytes, islands: Mapping[int, Island[Any]]) -> dict
 
     table = pq.read_table(pa.BufferReader(content))
     version = (table.schema.metadata or {}).get(b"atoll.checkpoint", b"none").decode()
-    if version != VERSION:
+    if version not in READABLE:
         raise InputError(file, f"a part of a checkpoint, version {VERSION}", f"version {version}")
     pending: dict[int, list[Packet]] = {number: [] for number in islands}
     for letter in table.column("pending").to_pylist():

@@ -12,15 +12,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from islands.holdings import NOTHING, Held, Holdings, Past
-from islands.individual import Individual, Scores
+from islands.individual import Individual, Outcomes, Scores
 from islands.kinds.protocol import Biology
 from islands.migration.channel import Migrant
 from islands.state import Deme, State
 from islands.steered import Steered
 from islands.tally import Champion
+from islands.watch import Known, Watch
 
-MEMBER: Final = ("ids", "genotypes", "fitness", "scores", "errors", "since")
-"""The columns of a deme."""
+MEMBER: Final = ("ids", "genotypes", "fitness", "scores", "errors", "since", "outcomes")
+"""The columns of a deme; the last is not in checkpoints of version 1."""
 
 
 def deme_columns(biology: Biology[Any], deme: Deme[Any]) -> dict[str, list[Any]]:
@@ -32,14 +33,18 @@ def deme_columns(biology: Biology[Any], deme: Deme[Any]) -> dict[str, list[Any]]
         "scores": [one.scores for one in deme],
         "errors": [one.error for one in deme],
         "since": [one.since for one in deme],
+        "outcomes": [one.outcomes for one in deme],
     }
 
 
 def read_deme(biology: Biology[Any], columns: Mapping[str, Sequence[Any]]) -> Deme[Any]:
     """Read what :func:`deme_columns` gave; whatever the biology raises for a genotype that it cannot read passes."""
+    whole = {"outcomes": [()] * len(columns["ids"]), **columns}
     return tuple(
-        Individual(identity, biology.decode(text), fitness, _scores(scores), error, since)
-        for identity, text, fitness, scores, error, since in zip(*(columns[name] for name in MEMBER), strict=True)
+        Individual(identity, biology.decode(text), fitness, _scores(scores), error, since, _outcomes(outcomes))
+        for identity, text, fitness, scores, error, since, outcomes in zip(
+            *(whole[name] for name in MEMBER), strict=True
+        )
     )
 
 
@@ -57,6 +62,7 @@ def state_text(state: State[Any], champion: Champion | None) -> str:
             "steered": state.steered.to_json(),
             "held": {} if held == NOTHING else held._asdict(),
             "champion": champion,
+            "watched": state.watched,
         },
         separators=(",", ":"),
     )
@@ -81,9 +87,17 @@ def read_state(text: str, deme: Deme[Any]) -> tuple[State[Any], Champion | None]
         held=_holdings(told["held"]),
         scoring=told["scoring"],
         steered=Steered.from_json(told["steered"]),
+        watched=_watches(told.get("watched", ())),  # not in checkpoints of version 1
     )
     champion = told["champion"]
     return state, None if champion is None else (champion[0], champion[1])
+
+
+def _watches(told: Sequence[Any]) -> tuple[Watch, ...]:
+    return tuple(
+        Watch(channel, tuple(Known(identity, text) for identity, text in champions), stalled)
+        for channel, champions, stalled in told
+    )
 
 
 def _holdings(told: Mapping[str, Any]) -> Holdings:
@@ -106,6 +120,10 @@ def _migrants(told: Sequence[Any]) -> tuple[Migrant, ...]:
     return tuple(
         Migrant(identity, text, fitness, _scores(scores), error) for identity, text, fitness, scores, error in told
     )
+
+
+def _outcomes(told: Sequence[Any]) -> Outcomes:
+    return tuple((partners, fitness) for partners, fitness in told)
 
 
 def _scores(told: Sequence[Any]) -> Scores:

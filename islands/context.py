@@ -12,10 +12,9 @@ from typing import Final, Generic, TypeVar, final
 
 from genome.mishaps import let_pass, told
 from islands.holdings import NOTHING, Holdings, everything
-from islands.individual import Evaluation
 from islands.kinds.protocol import Assembling, Biology, Situated, Symbiotic
 from islands.migration.channel import Channel, Migrant
-from islands.pairings import Sides, scored_in_pairs, sides_of
+from islands.pairings import Scored, Sides, scored_in_pairs, sides_of
 from islands.scoring import scored
 from islands.streams import EpochStreams
 
@@ -42,24 +41,22 @@ class Context(Generic[G]):
         Names the context; what packets carry.
     """
 
-    __slots__ = ("_assembling", "_company", "biology", "mishap", "scoring", "symbiotic")
+    __slots__ = ("_assembling", "biology", "company", "mishap", "scoring", "symbiotic")
 
     def __init__(self, biology: Biology[G], company: Sides | None = None, mishap: str = "") -> None:
         self.biology: Final = biology
         self.mishap: Final = mishap
         self.scoring: Final = biology.scoring if company is None else f"{biology.scoring}+{company.key}"
         self.symbiotic: Final[Symbiotic[G] | None] = biology if isinstance(biology, Symbiotic) else None
-        self._company: Final = company
+        self.company: Final = company
         self._assembling: Final[Assembling[G] | None] = biology if isinstance(biology, Assembling) else None
 
-    def score(
-        self, genotype: G, streams: EpochStreams, pulse: Callable[[], None]
-    ) -> tuple[Evaluation, tuple[int, ...]]:
-        """Score a genotype; give what came of it, and the ids of the partners it was scored with."""
-        if self._company is None or self.symbiotic is None:
+    def score(self, genotype: G, streams: EpochStreams, pulse: Callable[[], None]) -> Scored:
+        """Score a genotype, alone or with the partners of its pairings."""
+        if self.company is None or self.symbiotic is None:
             pulse()
-            return scored(self.biology, genotype), ()
-        return scored_in_pairs(self.symbiotic, genotype, self._company, streams, pulse)
+            return Scored(scored(self.biology, genotype))
+        return scored_in_pairs(self.symbiotic, genotype, self.company, streams, pulse)
 
     def components(self, genotype: G) -> tuple[int, ...]:
         """Give the ids of the parts that a genotype is assembled from."""

@@ -26,6 +26,7 @@ from islands.forms import best_forms, write_forms
 from islands.inputs import inputs_here
 from islands.interventions.intervention import Intervention
 from islands.island import Island
+from islands.lateness import Lateness
 from islands.log import LogWriter
 from islands.mail import Bell, Porch
 from islands.migration.adapters import adapters_into
@@ -119,6 +120,7 @@ class Host:
         self._log = LogWriter(log, plan.run, plan.islands, calendar, begun=begun)
         self._inputs = ExitStack()
         self._transit = Transit()
+        self._lateness = Lateness(self._routes, -1 if plan.start is None else plan.start.epoch)
         self._interventions: dict[int, list[Intervention]] = defaultdict(list)
         for epoch, one in plan.interventions:
             self._interventions[epoch].append(one)
@@ -290,6 +292,8 @@ class Host:
         if self._plan.schedule == "async" and epoch > 0:
             edges = self._routes.incoming(number, epoch - 1)
             self._log.tell(number, epoch, "arrivals", arrivals_detail(packets, edges, epoch - 1))
+            for detail in self._lateness.told(number, epoch, packets):
+                self._log.tell(number, epoch, "late", detail)
         self._agenda.done(number)
         placement, here = self._plan.placement, self._plan.host
         for packet in step.departures:
@@ -443,7 +447,7 @@ class Host:
             self._log.tell(island.spec.number, state.epoch, "form", detail)
 
         best = best_forms(island, state.deme, self._plan.best_forms)
-        return write_forms(island, best, folder, self._plan.run, failed)
+        return write_forms(island, state, best, folder, self._plan.run, failed)
 
 
 def _strangers(plan: HostPlan) -> Mapping[int, Sequence[tuple[str, IslandSpec]]]:

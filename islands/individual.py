@@ -11,6 +11,9 @@ G = TypeVar("G")
 Scores = tuple[tuple[str, float], ...]
 """Criteria and their values, sorted by name."""
 
+Outcomes = tuple[tuple[str, float | None], ...]
+"""Of each pairing of an individual: a name of the partners in it, and the fitness, ``None`` where it was invalid."""
+
 COUNTER_BITS: Final = 40
 """An id holds the island's number above this many bits, and the count of that island's individuals below."""
 
@@ -57,6 +60,8 @@ class Individual(Generic[G]):
         As in :class:`Evaluation`.
     since
         The island's generation in which it was born there or came there.
+    outcomes
+        What its fitness was made of; kept only where fitness is shared (:mod:`islands.sharing`).
     """
 
     id: int
@@ -65,6 +70,7 @@ class Individual(Generic[G]):
     scores: Scores
     error: str
     since: int = 0
+    outcomes: Outcomes = ()
 
 
 class Rated(Protocol):

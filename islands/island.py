@@ -6,7 +6,8 @@ Only the clock's columns differ from run to run.
 
 An epoch goes so: interventions that begin with it change goals, rates and members; what channels of partners,
 components and surroundings bring is taken in, and where any of that changes how members score, the deme is scored
-again; those who are inserted join, then migrants; then generations are bred; then each edge's packet is made.
+again; those who are inserted join, then migrants; then generations are bred; then what is watched is measured, and
+each edge's packet is made.
 """
 
 from __future__ import annotations
@@ -19,12 +20,13 @@ from growth.protocol import Clock
 from islands.algorithms.breeding import Birth, breed
 from islands.algorithms.scheme import SCHEMES
 from islands.biologies import Biologies
+from islands.context import Context
 from islands.figures import figures
 from islands.holdings import NOTHING, Holdings
 from islands.individual import Individual
 from islands.interventions.intervention import Intervention, Subject, concerning
 from islands.interventions.registry import changed, joined
-from islands.kinds.protocol import Biology
+from islands.kinds.protocol import Biology, is_ready
 from islands.migration.channel import Edge, Packet
 from islands.migration.departures import Bundle, Departures, Standing, bundled
 from islands.migration.gate import Adapters, Gate
@@ -32,11 +34,13 @@ from islands.migration.routes import Routes
 from islands.reception import Arrived, reason_of, received, rescored, steered_reason
 from islands.regime import Build, Regimes
 from islands.registrar import Registrar
-from islands.selection import ranked
+from islands.selection import different, ranked
+from islands.sharing import judged, survivors
 from islands.spec import IslandSpec
 from islands.state import Advance, Deme, State
 from islands.steered import Steered
 from islands.streams import EpochStreams, Purpose
+from islands.watch import Watcher
 
 __all__ = ["Advance", "Island", "Pulse", "State"]
 
@@ -92,6 +96,7 @@ class Island(Generic[G]):
         self._scheme: Final = SCHEMES[spec.algorithm.name]
         into = routes.channels_into(spec.number)
         self._regimes: Final = Regimes(spec, biology, into, build or Biologies(clock))
+        self._watcher: Final[Watcher[G]] = Watcher(into, pulse)
         # Edges as they are looked up, and the routes' own tuple that they were made of.
         self._doors: tuple[tuple[Edge, ...], Mapping[tuple[int, int], Edge]] = ((), {})
         self._bundles: tuple[tuple[Edge, ...], tuple[Bundle, ...]] = ((), ())
@@ -101,7 +106,10 @@ class Island(Generic[G]):
         started = self._clock()
         streams = EpochStreams(self._seed, self.spec.number, epoch)
         context = self._regimes.usual.contexts.alone
-        registrar = Registrar(self.spec.number, epoch, 0, 0, context, streams, self._pulse)
+        registrar = self._registrar(epoch, 0, 0, context, streams)
+        if not is_ready(context.biology):
+            registrar.note("waiting", {"detail": "no parts of each name yet"})
+            return self._ended(State((), epoch, 0, 0), None, registrar, streams)
         deme = self._settled_anew(registrar, streams)
         diversity = self._summarise(deme, registrar, started)
         best = registrar.generations[-1].best
@@ -131,7 +139,7 @@ class Island(Generic[G]):
         number, epoch = self.spec.number, state.epoch + 1
         streams = EpochStreams(self._seed, number, epoch)
         context = self._regimes.of(state.steered).contexts.alone
-        registrar = Registrar(number, epoch, state.generation, state.counter, context, streams, self._pulse)
+        registrar = self._registrar(epoch, state.generation, state.counter, context, streams)
         own = concerning(interventions, self.spec.name)
         migrants, others = self._sorted(arrivals)
         subject, held, best = self._settled(state, own, others, registrar)
@@ -142,16 +150,40 @@ class Island(Generic[G]):
                 gate.enter(edge, packet)
             deme = gate.deme()
         diversity = None
-        for _ in range(generations):
+        if not registrar.counter and not deme and is_ready(registrar.context.biology):
+            deme = self._settled_anew(registrar, streams)
+            diversity = self._summarise(deme, registrar, started)
+            started, best = self._clock(), registrar.generations[-1].best
+        for _ in range(self._due(state, deme, generations, registrar)):
             registrar.generation += 1
-            deme = self._bred(deme, steered, registrar, streams)
+            if self._is_renewed(registrar.generation, steered):
+                deme, stagnant = self._renewed(deme, steered, registrar, streams), 0
+            else:
+                deme = self._bred(deme, steered, registrar, streams)
             diversity = self._summarise(deme, registrar, started)
             started, stagnant = self._clock(), stagnant + 1
             now = registrar.generations[-1].best
             if now is not None and (best is None or now > best):
                 best, stagnant = now, 0
-        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered)
+        watched, details = self._watcher.look(deme, registrar.context, held, state.watched)
+        for detail in details:
+            registrar.note("coevolution", detail)
+        after = State(deme, epoch, registrar.generation, registrar.counter, best, stagnant, held, "", steered, watched)
         return self._ended(after, diversity, registrar, streams)
+
+    def context(self, state: State[G]) -> Context[G]:
+        """Give the context in which the members of a state are scored."""
+        usual = self._regimes.of(state.steered).contexts
+        if state.held == NOTHING:
+            return usual.alone
+        streams = EpochStreams(self._seed, self.spec.number, state.epoch)
+        return usual.of(state.held, streams, self._routes.live(self.spec.number, state.epoch - 1))
+
+    def _registrar(
+        self, epoch: int, generation: int, counter: int, context: Context[G], streams: EpochStreams
+    ) -> Registrar[G]:
+        sharing = self.spec.algorithm.sharing != "none"
+        return Registrar(self.spec.number, epoch, generation, counter, context, streams, self._pulse, sharing=sharing)
 
     # -- arriving ------------------------------------------------------------------------------------------------
 
@@ -198,6 +230,26 @@ class Island(Generic[G]):
 
     # -- breeding ------------------------------------------------------------------------------------------------
 
+    def _due(self, state: State[G], deme: Deme[G], generations: int, registrar: Registrar[G]) -> int:
+        """Give how many generations are to be bred: none while the island waits for parts, or once it rests."""
+        if not deme and not is_ready(registrar.context.biology):
+            return 0
+        most = self.spec.epochs
+        return 0 if most is not None and state.generation >= most * generations else generations
+
+    def _is_renewed(self, generation: int, steered: Steered) -> bool:
+        """Tell whether a new run of the algorithm begins with this generation."""
+        every = self._regimes.of(steered).algorithm.restart
+        return every is not None and generation > 1 and (generation - 1) % every == 0
+
+    def _renewed(self, deme: Deme[G], steered: Steered, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
+        """Give a fresh population, in which the best different ones of before stay, and those who are locked."""
+        locked = [one for one in deme if one.id in steered.locked]
+        free = [one for one in ranked(deme, steered.promoted) if one.id not in steered.locked]
+        count = min(self._regimes.of(steered).algorithm.restart_keep, self.spec.population - len(locked))
+        kept = [*locked, *different(free, count, registrar.context.biology)]
+        return (*kept, *self._settled_anew(registrar, streams, len(kept)))
+
     def _bred(self, deme: Deme[G], steered: Steered, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
         """Give the deme of the next generation; where all have moved away, it is settled anew.
 
@@ -206,7 +258,7 @@ class Island(Generic[G]):
         if not deme:
             return self._settled_anew(registrar, streams)
         settings = self._regimes.of(steered).algorithm
-        order = free = ranked(deme, steered.promoted)
+        order = free = ranked(judged(deme, settings), steered.promoted)
         kept: list[Individual[G]] = []
         if steered.locked:
             kept = [one for one in order if one.id in steered.locked]
@@ -218,11 +270,14 @@ class Island(Generic[G]):
         breeders = self._scheme.breeders(settings, self.spec.population, order)
         births = breed(registrar.context.biology, breeders, count, settings, streams)
         children = [registrar.bear(birth) for birth in births]
-        return (*kept, *self._scheme.survivors(settings, places, free, children, steered.promoted))
+        if settings.sharing != "none":
+            own = {one.id: one for one in deme}
+            kept, free = [own[one.id] for one in kept], [own[one.id] for one in free]
+        return (*kept, *survivors(self._scheme, settings, places, free, children, steered.promoted))
 
-    def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams) -> Deme[G]:
+    def _settled_anew(self, registrar: Registrar[G], streams: EpochStreams, kept: int = 0) -> Deme[G]:
         biology, rng = registrar.context.biology, streams(Purpose.INITIAL)
-        births: list[Birth[G]] = [Birth(biology.random(rng), (), "random") for _ in range(self.spec.population)]
+        births: list[Birth[G]] = [Birth(biology.random(rng), (), "random") for _ in range(self.spec.population - kept)]
         return tuple([registrar.bear(birth) for birth in births])
 
     def _summarise(self, deme: Sequence[Individual[G]], registrar: Registrar[G], started: float) -> float | None:
@@ -255,6 +310,6 @@ class Island(Generic[G]):
         steered = state.steered.among(one.id for one in deme)
         after = State(
             deme, state.epoch, state.generation, state.counter, state.best, state.stagnant, state.held,
-            context.scoring, steered,
+            context.scoring, steered, state.watched,
         )  # fmt: skip
         return Advance(after, packets, registrar.records())

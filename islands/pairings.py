@@ -3,7 +3,7 @@
 A member is scored by as many pairings as the channel with the most chosen partners has; where a channel has fewer, its
 partners come round again. What the pairings make together is the matter of the first channel of partners.
 Schemes after Panait, Luke and Wiegand 2006, "Biasing coevolutionary search for optimal multiagent behaviors"; the
-archive after Rosin and Belew 1997, "New methods for competitive coevolution".
+archive (their hall of fame) after Rosin and Belew 1997, "New methods for competitive coevolution".
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import hashlib
 import json
 import math
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, Final, NamedTuple, TypeVar
 
 from islands.holdings import Holdings, pool
-from islands.individual import Evaluation
+from islands.individual import Evaluation, Outcomes
 from islands.kinds.protocol import Symbiotic
 from islands.migration.channel import Channel, Migrant, Pairing
 from islands.scoring import scored_with
@@ -23,6 +23,8 @@ from islands.streams import EpochStreams, Purpose
 
 G = TypeVar("G")
 USUAL = Pairing()
+_HASHED: Final = 16
+"""Hexadecimal digits of the hash of what a partner shows that stand in its name."""
 
 
 class Side(NamedTuple):
@@ -36,11 +38,32 @@ class Side(NamedTuple):
         Those that every member is paired with, or that they are drawn from, best first.
     drawn
         How many are drawn for each member; 0 where all are paired with all partners.
+    names
+        Of the partners: their ids, and a hash of what they show, which may change while the id stays.
     """
 
     channel: int
     partners: tuple[Migrant, ...]
     drawn: int
+    names: tuple[str, ...] = ()
+
+
+class Scored(NamedTuple):
+    """What a genotype was scored with, and what came of it.
+
+    Attributes
+    ----------
+    evaluation
+        All in all.
+    partners
+        Ids of the partners, pairing by pairing; empty for one that was scored alone.
+    outcomes
+        Fitness of each pairing; empty as above.
+    """
+
+    evaluation: Evaluation
+    partners: tuple[int, ...] = ()
+    outcomes: Outcomes = ()
 
 
 class Sides(NamedTuple):
@@ -60,6 +83,11 @@ class Sides(NamedTuple):
     sides: tuple[Side, ...]
     pairing: Pairing
     key: str
+
+    @property
+    def foremost(self) -> tuple[Migrant, ...]:
+        """Give one partner of each channel: those of a member's first pairing, or where some are drawn the best."""
+        return tuple(side.partners[0] for side in self.sides)
 
 
 def sides_of(channels: Sequence[Channel], holdings: Holdings, streams: EpochStreams) -> Sides | None:
@@ -84,12 +112,13 @@ def sides_of(channels: Sequence[Channel], holdings: Holdings, streams: EpochStre
         return None
     first = channels[0].pairing or USUAL
     meaning: list[Any] = [first.score]
-    for channel, side in zip(channels, sides, strict=True):
+    for place, (channel, side) in enumerate(zip(channels, sides, strict=True)):
         # Who is drawn does not hang on the order of those drawn from.
         who = [(one.id, hashlib.sha256(one.text.encode(errors="surrogatepass")).hexdigest()) for one in side.partners]
         meaning.append(
             [channel.number, (channel.pairing or USUAL).scheme, side.drawn, sorted(who) if side.drawn else who]
         )
+        sides[place] = side._replace(names=tuple(f"{identity}:{shown[:_HASHED]}" for identity, shown in who))
     return Sides(tuple(sides), first, hashlib.sha256(json.dumps(meaning).encode()).hexdigest())
 
 
@@ -101,44 +130,56 @@ def _side(channel: Channel, shown: tuple[Migrant, ...], holdings: Holdings, stre
         return Side(channel.number, shown[: pairing.count], 0)
     if pairing.scheme == "best":
         return Side(channel.number, shown[:1], 0)
+    others: tuple[Migrant, ...] = ()
+    past, wanted = past_ones(channel, holdings, shown[:1]), pairing.count - 1
+    if pairing.scheme == "mixed":
+        # One who is shown now is no past one, so that nobody is met twice.
+        past = past_ones(channel, holdings, shown)
+        young = min(len(shown) - 1, wanted - min(wanted // 2, len(past)))
+        others, wanted = _drawn(shown[1:], young, channel, streams), wanted - young
+    return Side(channel.number, (shown[0], *others, *_drawn(past, wanted, channel, streams)), 0)
+
+
+def past_ones(channel: Channel, holdings: Holdings, but: Sequence[Migrant]) -> tuple[Migrant, ...]:
+    """Give the past representatives that a channel's archive holds, the newest first: all but some, as they are now."""
     past = [one for old in holdings.archives if old.channel == channel.number for one in old.travellers]
-    past = [one for one in past if (one.id, one.text) != (shown[0].id, shown[0].text)][: pairing.archive]
-    wanted = min(pairing.count - 1, len(past))
-    places: list[int] = list(range(wanted))
-    if 0 < wanted < len(past):
-        rng = streams(Purpose.PARTNERS, channel.number)
-        places = sorted(rng.choice(len(past), size=wanted, replace=False).tolist())
-    return Side(channel.number, (shown[0], *(past[place] for place in places)), 0)
+    here = {(one.id, one.text) for one in but}
+    return tuple(one for one in past if (one.id, one.text) not in here)[: (channel.pairing or USUAL).archive]
+
+
+def _drawn(among: tuple[Migrant, ...], count: int, channel: Channel, streams: EpochStreams) -> tuple[Migrant, ...]:
+    """Draw some, in their order; all where there are no more, without a draw."""
+    if count >= len(among) or count == 0:
+        return among[:count]
+    places = streams(Purpose.PARTNERS, channel.number).choice(len(among), size=count, replace=False)
+    return tuple(among[place] for place in sorted(places.tolist()))
 
 
 def scored_in_pairs(
     biology: Symbiotic[G], genotype: G, company: Sides, streams: EpochStreams, pulse: Callable[[], None]
-) -> tuple[Evaluation, tuple[int, ...]]:
-    """Score a genotype by all of its pairings.
-
-    Returns
-    -------
-    What they make together, and the ids of the partners, pairing by pairing.
-    """
+) -> Scored:
+    """Score a genotype by all of its pairings."""
     chosen = [_chosen(side, streams) for side in company.sides]
     found: list[Evaluation] = []
     ids: list[int] = []
-    for pairing in range(max(len(partners) for partners in chosen)):
-        together = tuple(partners[pairing % len(partners)] for partners in chosen)
+    outcomes: list[tuple[str, float | None]] = []
+    for pairing in range(max(len(places) for places in chosen)):
+        places = [choice[pairing % len(choice)] for choice in chosen]
+        together = tuple(side.partners[place] for side, place in zip(company.sides, places, strict=True))
         pulse()
         found.append(scored_with(biology, genotype, together))
         ids.extend(one.id for one in together)
-    return combined(found, company.pairing), tuple(ids)
+        named = " ".join(side.names[place] for side, place in zip(company.sides, places, strict=True))
+        outcomes.append((named, found[-1].fitness))
+    return Scored(combined(found, company.pairing), tuple(ids), tuple(outcomes))
 
 
-def _chosen(side: Side, streams: EpochStreams) -> tuple[Migrant, ...]:
-    if not side.drawn:
-        return side.partners
-    if len(side.partners) == 1:
-        return side.partners
+def _chosen(side: Side, streams: EpochStreams) -> Sequence[int]:
+    """Give the places of the partners of one member."""
+    if not side.drawn or len(side.partners) == 1:
+        return range(len(side.partners))
     rng = streams(Purpose.PARTNERS, side.channel)
-    places = rng.choice(len(side.partners), size=side.drawn, replace=False).tolist()
-    return tuple(side.partners[place] for place in sorted(places))
+    return sorted(rng.choice(len(side.partners), size=side.drawn, replace=False).tolist())
 
 
 def combined(found: Sequence[Evaluation], pairing: Pairing) -> Evaluation:

@@ -7,7 +7,8 @@ from typing import Generic, TypeVar, final
 
 from islands.algorithms.breeding import Birth
 from islands.context import Context
-from islands.individual import Evaluation, Individual, make_id
+from islands.individual import Individual, make_id
+from islands.pairings import Scored
 from islands.records import Born, Crossing, Generation, Note, Records, Rescored
 from islands.streams import EpochStreams
 
@@ -32,6 +33,8 @@ class Registrar(Generic[G]):
         Of this epoch.
     pulse
         Called before each scoring; it may raise.
+    sharing
+        Whether members share fitness, so that they keep the outcomes of their pairings.
 
     Attributes
     ----------
@@ -40,8 +43,8 @@ class Registrar(Generic[G]):
     """
 
     __slots__ = (
-        "_island", "_pulse", "born", "context", "counter", "crossings", "epoch", "evaluations", "generation",
-        "generations", "notes", "rescored", "streams",
+        "_island", "_pulse", "_sharing", "born", "context", "counter", "crossings", "epoch", "evaluations",
+        "generation", "generations", "notes", "rescored", "streams",
     )  # fmt: skip
 
     def __init__(
@@ -53,10 +56,13 @@ class Registrar(Generic[G]):
         context: Context[G],
         streams: EpochStreams,
         pulse: Callable[[], None],
+        *,
+        sharing: bool = False,
     ) -> None:
         self._island = island
         self.streams = streams
         self._pulse = pulse
+        self._sharing = sharing
         self.epoch = epoch
         self.generation = generation
         self.counter = counter
@@ -72,7 +78,7 @@ class Registrar(Generic[G]):
         """Name, score and record one newborn."""
         genotype, parents, origin = birth
         identity = make_id(self._island, self.counter)
-        found, partners = self._score(genotype, identity)
+        found, partners, outcomes = self._score(genotype, identity)
         self.counter += 1
         text, parts = self.context.biology.encode(genotype), self.context.components(genotype)
         self.born.append(
@@ -81,18 +87,25 @@ class Registrar(Generic[G]):
                 found.fitness, found.scores, found.error, found.growth_ms, found.evaluation_ms,
             )
         )  # fmt: skip
-        return Individual(identity, genotype, found.fitness, found.scores, found.error, self.generation)
+        return Individual(identity, genotype, found.fitness, found.scores, found.error, self.generation, outcomes)
 
     def score_again(self, identity: int, genotype: G, reason: str, since: int) -> Individual[G]:
         """Score and record one already bred."""
-        found, partners = self._score(genotype, identity)
+        found, partners, outcomes = self._score(genotype, identity)
         self.rescored.append(
             Rescored(
                 self.generation, self.epoch, identity, reason, found.fitness, found.scores, partners, found.error,
                 found.growth_ms + found.evaluation_ms,
             )
         )  # fmt: skip
-        return Individual(identity, genotype, found.fitness, found.scores, found.error, since)
+        return Individual(identity, genotype, found.fitness, found.scores, found.error, since, outcomes)
+
+    def scores_as(self, scoring: str) -> bool:
+        """Tell whether one that was scored so elsewhere need not be scored again.
+
+        Where fitness is shared it must be: outcomes do not travel.
+        """
+        return scoring == self.context.scoring and not (self._sharing and self.context.company is not None)
 
     def note(self, kind: str, detail: dict[str, object]) -> None:
         """Keep something that the events table is to tell."""
@@ -108,9 +121,9 @@ class Registrar(Generic[G]):
             tuple(self.notes),
         )
 
-    def _score(self, genotype: G, identity: int) -> tuple[Evaluation, tuple[int, ...]]:
-        found, partners = self.context.score(genotype, self.streams, self._pulse)
+    def _score(self, genotype: G, identity: int) -> Scored:
+        found = self.context.score(genotype, self.streams, self._pulse)
         self.evaluations += 1
-        for kind, detail in found.notes:
+        for kind, detail in found.evaluation.notes:
             self.note(kind, {"id": identity, **detail})
-        return found, partners
+        return found if self._sharing else found._replace(outcomes=())

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from islands.individual import Individual, merit
+from islands.kinds.protocol import Biology
 
 G = TypeVar("G")
 
@@ -21,6 +22,21 @@ def ranked(deme: Sequence[Individual[G]], promoted: Sequence[int] = ()) -> list[
     if not promoted:
         return sorted(deme, key=merit)
     return sorted(deme, key=lambda member: (standing(member.id, promoted), *merit(member)))
+
+
+def different(order: Sequence[Individual[G]], count: int, biology: Biology[G]) -> list[Individual[G]]:
+    """Give the first valid ones of a ranked deme that are of different forms; fewer where there are no more.
+
+    Members whose scores are equal to the last bit count as one form, since different genotypes may grow into one. Of a
+    kind without scores genotypes are compared.
+    """
+    forms: dict[object, Individual[G]] = {}
+    for member in order:
+        if len(forms) == count:
+            break
+        if member.fitness is not None:
+            forms.setdefault(member.scores or biology.encode(member.genotype), member)
+    return list(forms.values())
 
 
 def standing(identity: int, promoted: Sequence[int]) -> int:

@@ -47,6 +47,14 @@ class Algorithm(Settings):
         Probability that a pair of offspring is crossed.
     mutation
         Probability that an offspring is mutated; one that was not crossed is mutated in any case.
+    sharing
+        By what those who breed and survive are chosen: ``none``, by their fitness; ``competitive``, by what they take
+        of the partners that the deme was scored with (:mod:`islands.sharing`).
+    restart
+        After so many generations a new run begins from a fresh random population, which takes the place of a
+        generation; never without (Rosenman 1997, section 4, prefers it to mutation).
+    restart_keep
+        How many of the best different members stay in it.
     """
 
     name: Literal["generational", "plus", "parents"] = "generational"
@@ -59,6 +67,9 @@ class Algorithm(Settings):
     tournament: Annotated[int, Field(ge=1, le=1_000_000)] = 3
     crossover: Probability = 0.8
     mutation: Probability = 0.1
+    sharing: Literal["none", "competitive"] = "none"
+    restart: Annotated[int, Field(ge=1)] | None = None
+    restart_keep: Annotated[int, Field(ge=0)] = 0
 
     @model_validator(mode="after")
     def _keys_are_of_their_algorithm(self) -> Self:

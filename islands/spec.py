@@ -37,6 +37,8 @@ class IslandSpec:
         The folder that file names in the settings are relative to.
     since, until
         It begins in the epoch ``since``, and steps in epochs before ``until``; in all of them without one.
+    epochs
+        It breeds in so many epochs from its first population on, then rests; in all without.
     """
 
     name: str
@@ -53,6 +55,7 @@ class IslandSpec:
     base: str
     since: int = 0
     until: int | None = None
+    epochs: int | None = None
 
     def is_there(self, epoch: int) -> bool:
         """Tell whether it steps in an epoch."""

@@ -10,6 +10,7 @@ from islands.individual import Individual
 from islands.migration.channel import Packet
 from islands.records import Records
 from islands.steered import UNSTEERED, Steered
+from islands.watch import Watch
 
 G = TypeVar("G")
 Deme = tuple[Individual[G], ...]
@@ -38,6 +39,8 @@ class State(Generic[G]):
         Names the context in which the members are scored.
     steered
         What interventions have changed for good.
+    watched
+        What is remembered of the channels of partners that are watched.
     """
 
     deme: Deme[G]
@@ -49,6 +52,7 @@ class State(Generic[G]):
     held: Holdings = NOTHING
     scoring: str = ""
     steered: Steered = UNSTEERED
+    watched: tuple[Watch, ...] = ()
 
     def with_deme(self, deme: Deme[G]) -> State[G]:
         """Give the same state with another deme."""

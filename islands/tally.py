@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Final, final
 
 from genome.mishaps import one_line
+from islands.figures import figures
 from islands.individual import Individual
 from islands.spec import IslandSpec
-from islands.state import Advance
+from islands.state import Advance, State
 
 MOST_REASON: Final = 160
 """Characters of the reason that a summary gives."""
@@ -66,7 +67,8 @@ class Tally:
 
     def add(self, island: int, step: Advance[Any]) -> None:
         """Sum up an epoch of one island; an island's epochs come in order."""
-        last = step.records.generations[-1]
+        rows = step.records.generations
+        last = rows[-1] if rows else figures(step.state.deme, step.state.generation, step.state.epoch, 0, None, 0.0)
         contenders = [(row.fitness, row.id) for row in step.records.born if row.fitness is not None]
         if island in self._champions:
             contenders.append(self._champions[island])
@@ -76,13 +78,13 @@ class Tally:
             island=self._names[island],
             epoch=step.state.epoch,
             generation=step.state.generation,
-            evaluations=sum(row.evaluations for row in step.records.generations),
+            evaluations=sum(row.evaluations for row in rows),
             best=last.best,
             mean=last.mean,
             invalid=last.invalid,
             migrants=sum(row.accepted and row.kind == "migrants" for row in step.records.crossings),
             champion=self._champions.get(island),
-            trouble=most_frequent_error(step.state.deme) if last.best is None else "",
+            trouble=_trouble(step.state) if last.best is None else "",
         )
 
     def since(self, before: int, through: int) -> tuple[IslandSummary, ...]:
@@ -112,6 +114,13 @@ class Tally:
         """Forget epochs before this one."""
         for epoch in [epoch for epoch in self._epochs if epoch < before]:
             del self._epochs[epoch]
+
+
+def _trouble(state: State[Any]) -> str:
+    """Say why an island has no valid member."""
+    if not state.deme and not state.counter:
+        return "it waits for parts"
+    return most_frequent_error(state.deme)
 
 
 def most_frequent_error(deme: Sequence[Individual[Any]]) -> str:

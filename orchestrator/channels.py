@@ -27,17 +27,21 @@ OF_KIND: Final[Mapping[str, ChannelKind]] = {
     "pairings": "partners",
     "score": "partners",
     "archive": "partners",
+    "measures": "partners",
     "keep": "components",
 }
 """Keys that belong to channels of one kind alone."""
 
 DEFAULTS: Final[Mapping[ChannelKind, Mapping[str, Any]]] = {
     "migrants": {"replace": "worst", "accept": "always", "mode": "copy"},
-    "partners": {"pairing": "best", "score": "mean", "archive": 0},
+    "partners": {"pairing": "best", "score": "mean", "archive": 0, "measures": False},
     "components": {},
     "surroundings": {},
 }
 """What a channel of a kind has where nothing is said; the rest depends on other keys."""
+
+USUAL_PAIRINGS: Final[Mapping[PairingScheme, int]] = {"best": 1, "random": 1, "several": 2, "archive": 2, "mixed": 3}
+LEAST_MIXED: Final = 3
 
 OF_FORM: Final = {"among": "topology", "unreached": "topology", "join": "from"}
 """Keys that belong to channels of a topology, or to those from islands to others."""
@@ -87,6 +91,8 @@ class ChannelSettings(Settings):
     target: str | list[str] | None = Field(default=None, alias="to")
     join: Literal["all", "matching"] | None = None
     every: Count = 1
+    since: Annotated[int, Field(ge=0, le=10**9)] = 0
+    until: Count | None = None
     count: Count | None = None
     rate: Share | None = None
     select: Chooser = "best"
@@ -102,6 +108,7 @@ class ChannelSettings(Settings):
     pairings: Count | None = None
     score: PairingScore | None = None
     archive: Annotated[int, Field(ge=0, le=1_000_000)] | None = None
+    measures: bool | None = None
     keep: Count | None = None
 
     @field_validator("among", "source", "target", mode="before")
@@ -161,6 +168,9 @@ def completed(channel: ChannelSettings, where: str, epoch: int) -> ChannelSettin
         raise InputError(
             f"{where}.weight", "a probability above 0", "0, by which it never carries", "remove the channel"
         )
+    if channel.until is not None and channel.until <= channel.since:
+        got = f"{channel.until}, by which it never carries"
+        raise InputError(f"{where}.until", f"an epoch after 'since', {channel.since}", got)
     if channel.count is not None and channel.rate is not None:
         raise InputError(f"{where}.rate", "either 'count' or 'rate'", "both", "remove one of them")
     if channel.count is None and channel.rate is None:
@@ -203,6 +213,7 @@ def channel_of(channel: ChannelSettings, number: int, name: str, largest: int) -
             count=channel.pairings or 1,
             score=channel.score or "mean",
             archive=channel.archive or 0,
+            measures=channel.measures or False,
         )
     made = Channel(
         number=number,
@@ -220,6 +231,8 @@ def channel_of(channel: ChannelSettings, number: int, name: str, largest: int) -
         trigger=trigger,
         pairing=pairing,
         keep=channel.keep or 1,
+        since=channel.since,
+        until=channel.until,
     )
     if channel.kind == "components" and channel.keep is None:
         from dataclasses import replace
@@ -255,14 +268,20 @@ def _interval(channel: ChannelSettings, generations: int, where: str, epoch: int
 
 def _paired(channel: ChannelSettings, where: str) -> ChannelSettings:
     scheme, archive = channel.pairing or "best", channel.archive or 0
-    pairings = channel.pairings or (2 if scheme in ("several", "archive") else 1)
+    pairings = channel.pairings or USUAL_PAIRINGS[scheme]
     if scheme == "best" and pairings > 1:
-        remedy = "take pairing: several, random or archive"
+        remedy = "take pairing: several, random, archive or mixed"
         raise InputError(f"{where}.pairings", "1 with pairing: best", str(pairings), remedy)
-    if scheme == "archive" and archive < max(1, pairings - 1):
-        least = max(1, pairings - 1)
-        expected = f"an archive of {least} or more for pairing: archive with pairings: {pairings}"
+    if scheme == "mixed" and pairings < LEAST_MIXED:
+        expected = f"{LEAST_MIXED} or more with pairing: mixed: the best, another one shown, and a past one"
+        raise InputError(f"{where}.pairings", expected, str(pairings), "take more, or pairing: archive")
+    least = {"archive": max(1, pairings - 1), "mixed": (pairings - 1) // 2}.get(scheme, 0)
+    if archive < least:
+        expected = f"an archive of {least} or more for pairing: {scheme} with pairings: {pairings}"
         raise InputError(f"{where}.archive", expected, str(archive), f"add archive: {max(least, 10)}")
+    if channel.measures and not archive:
+        remedy = "add archive: 10"
+        raise InputError(f"{where}.measures", "an archive to measure the best against", "none", remedy)
     return channel.model_copy(update={"pairings": pairings})
 
 

@@ -9,18 +9,7 @@ from typing import Final
 from genome.errors import InputError
 from genome.yaml import load_yaml
 
-LATER: Final = (".plan",)
-"""Suffixes of files whose engines are not built yet."""
-
 ENVIRONMENT_KEYS: Final = frozenset({"gravity", "attractors", "repellers", "boundaries"})
-
-
-def refuse_later(path: Path) -> None:
-    """Refuse a file whose engine is not built yet, by its suffix."""
-    for suffix in LATER:
-        if path.name.endswith(suffix):
-            remedy = "this version grows .hemls, .blocks, .tl and .body.json files"
-            raise InputError(str(path), "a file of a kind that is built", f"'{suffix}', which comes later", remedy)
 
 
 def read_text(path: Path, what: str) -> str:
@@ -48,7 +37,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     ----------
     path
         An experiment or environment (``.yaml``, ``.yml``), a rule file (``.hemls``, ``.blocks``, ``.tl``), a
-        block body (``.body.json``), or a grammar (``.bnf``).
+        block body (``.body.json``), a room or plan (``.plan``), or a grammar (``.bnf``).
     overrides
         For an experiment, as ``--set`` takes them.
 
@@ -61,13 +50,13 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
     InputError
         For the first thing that is wrong.
     """
-    refuse_later(path)
     checks: Mapping[str, Callable[[Path], str]] = {
         ".hemls": _rules,
         ".blocks": _blocks,
         ".tl": _timed,
         ".body.json": _body,
         ".bnf": _grammar,
+        ".plan": _plan,
     }
     for suffix, reads in checks.items():
         if path.name.endswith(suffix):
@@ -83,7 +72,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         return "experiment", _experiment(path, overrides)
     if not path.exists():
         raise InputError(str(path), "a file", "no such file", "check the path")
-    expected = "a .yaml, .hemls, .blocks, .tl, .body.json or .bnf file"
+    expected = "a .yaml, .hemls, .blocks, .tl, .body.json, .plan or .bnf file"
     raise InputError(str(path), expected, f"'{path.suffix or path.name}'")
 
 
@@ -128,6 +117,13 @@ def _grammar(path: Path) -> str:
 
     parse_bnf(read_text(path, "a grammar"), str(path))
     return "grammar"
+
+
+def _plan(path: Path) -> str:
+    from orchestrator.plan_file import read_plan
+
+    read_plan(path)
+    return "plan"
 
 
 def _experiment(path: Path, overrides: Sequence[str]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from pydantic import Field, JsonValue
 
 from genome.errors import InputError
 from genome.settings import Settings, validated
-from islands.checkpoint import FOLDER, VERSION, Part, check_part, stem
+from islands.checkpoint import FOLDER, READABLE, VERSION, Part, check_part, stem
 from islands.log import LogFile
 from islands.store import Store, StoreError
 
@@ -203,7 +203,7 @@ def read(store: Store, epoch: int) -> Checkpoint:
     except (FileNotFoundError, ValueError) as error:
         raise InputError(where, "a checkpoint's JSON", f"what is none ({error})") from None
     version = data.get("version") if isinstance(data, dict) else None
-    if isinstance(version, str) and version != VERSION:
+    if isinstance(version, str) and version not in READABLE:
         expected, got = f"a checkpoint of version {VERSION}", f"one of version {version}"
         raise ForeignError(where, expected, got, "go on with the Atoll that wrote it")
     shape = validated(_Shape, data, where)

@@ -85,15 +85,19 @@ class Circumstances:
         decoded = context.biology.decode(genotype)
         if not partners or context.symbiotic is None:
             return scored(context.biology, decoded)
-        company = self._company(island, epoch)
-        if company is None:
-            raise lacking(partners[0])
-        found = []
-        for pairing, place in enumerate(range(0, len(partners), len(company.sides))):
-            together = zip(company.sides, partners[place : place + len(company.sides)], strict=True)
-            chosen = tuple(_partner(side, pairing, identity) for side, identity in together)
-            found.append(scored_with(context.symbiotic, decoded, chosen))
+        company, pairings = self._paired(island, epoch, partners)
+        found = [scored_with(context.symbiotic, decoded, chosen) for chosen in pairings]
         return combined(found, company.pairing)
+
+    def partners(self, island: str, epoch: int, partners: Sequence[int]) -> tuple[Migrant, ...]:
+        """Give the partners of the first of an individual's pairings, as they were shown to its island in an epoch.
+
+        Raises
+        ------
+        InputError
+            When the log does not have them.
+        """
+        return self._paired(island, epoch, partners)[1][0] if partners else ()
 
     # -- surroundings --------------------------------------------------------------------------------------------
 
@@ -171,6 +175,17 @@ class Circumstances:
         for one, parcel in best:
             held = archived(held, channel, [self._traveller(one, parcel, "partners")])
         return held
+
+    def _paired(self, island: str, epoch: int, partners: Sequence[int]) -> tuple[Sides, list[tuple[Migrant, ...]]]:
+        """Give an island's partners in an epoch, and those of one individual's pairings, pairing by pairing."""
+        company = self._company(island, epoch)
+        if company is None:
+            raise lacking(partners[0])
+        found = []
+        for pairing, place in enumerate(range(0, len(partners), len(company.sides))):
+            together = zip(company.sides, partners[place : place + len(company.sides)], strict=True)
+            found.append(tuple(_partner(side, pairing, identity) for side, identity in together))
+        return company, found
 
     # -- who travelled -------------------------------------------------------------------------------------------
 

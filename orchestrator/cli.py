@@ -17,10 +17,12 @@ COMMANDS: Final = {
     "validate": "Reproduce published behaviour of island models.",
     "show": "Show how a run stands.",
     "steer": "Intervene in a running run.",
+    "chart": "Draw a score over a run's generations.",
     "query": "Put an SQL query to a run's log.",
     "digest": "Give one hash of what happened in a run.",
     "replay": "Regrow a logged individual and score it again.",
     "export": "Write forms of a run's individuals.",
+    "sheet": "Draw a run's best plans side by side.",
     "schema": "Print the JSON Schema of the experiment file.",
 }
 """The commands in the order of the help; ``orchestrator.commands.NAME`` holds each as ``command``."""

@@ -6,7 +6,7 @@ Everything that can be known of it is checked before a run starts.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from importlib.metadata import entry_points
 from typing import Final, final
@@ -16,7 +16,7 @@ from genome.errors import InputError
 from genome.settings import describe
 from islands.kinds.protocol import Kind
 from islands.kinds.registry import resolve_kind
-from islands.kinds.trade import gives, needs, takes, variation
+from islands.kinds.trade import METHODS, gives, needed, needs, takes, variation
 from islands.migration.adapters import ADAPTERS, GROUP, build_adapter
 from islands.migration.channel import Channel, ChannelKind, Edge
 from islands.migration.routes import Redrawn
@@ -45,6 +45,17 @@ class Compatibility:
         """Give the kinds of channels that an island cannot do without."""
         with _telling(spec, "needs"):
             return needs(self._kind(spec), spec)
+
+    def needed(self, spec: IslandSpec) -> Mapping[ChannelKind, tuple[str, ...]]:
+        """Give the names of what has to come to an island, by the kind of channel that brings it."""
+        with _telling(spec, "needed"):
+            found = {kind: needed(self._kind(spec), kind, spec) for kind in METHODS}
+        return {kind: names for kind, names in found.items() if names}
+
+    def given(self, spec: IslandSpec, kind: ChannelKind) -> str:
+        """Give the name of what an island gives to channels of a kind; empty for nothing."""
+        with _telling(spec, "gives"):
+            return gives(self._kind(spec), kind, spec)
 
     def check(self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str) -> None:
         """Check one channel.
@@ -141,8 +152,7 @@ class Compatibility:
         return found
 
     def _check_trade(self, kind: ChannelKind, source: IslandSpec, target: IslandSpec, where: str) -> None:
-        with _telling(source, "gives"):
-            given = gives(self._kind(source), kind, source)
+        given = self.given(source, kind)
         with _telling(target, "takes"):
             taken = takes(self._kind(target), kind, target)
         if given and given in taken:
@@ -157,8 +167,10 @@ class Compatibility:
         self, settings: ChannelSettings, edges: Sequence[Edge], redrawn: Redrawn | None, where: str
     ) -> None:
         """Refuse more pairings than there are partners shown, or ever can be where edges are drawn anew."""
-        if settings.kind != "partners" or settings.pairing not in ("several", "random"):
+        if settings.kind != "partners" or settings.pairing not in ("several", "random", "mixed"):
             return
+        pairings = settings.pairings or 1
+        wanted = 1 + pairings // 2 if settings.pairing == "mixed" else pairings
         shown: dict[int, int] = defaultdict(int)
         for edge in edges:
             shown[edge.target] += edge.channel.size(self._islands[edge.source].population)
@@ -167,9 +179,12 @@ class Compatibility:
             sizes = {number: redrawn.channel.size(self._islands[number].population) for number, _ in redrawn.members}
             shown.update({number: sum(sizes.values()) - size for number, size in sizes.items()})
         for target, count in shown.items():
-            if (settings.pairings or 1) > count:
+            if wanted > count:
                 expected = f"at most {count}, as many as are shown to {self._islands[target].name}"
-                raise InputError(f"{where}.pairings", expected, str(settings.pairings), "raise 'count'")
+                got = str(pairings)
+                if settings.pairing == "mixed":
+                    got += f", of which {wanted} are with some of those shown"
+                raise InputError(f"{where}.pairings", expected, got, "raise 'count'")
 
 
 def _check_size(channel: Channel, source: IslandSpec, target: IslandSpec, where: str) -> None:

@@ -16,12 +16,13 @@ Seconds = Annotated[float, Field(gt=0, le=1e7)]
 
 
 class IslandSettings(Settings):
-    """One island, or ``count`` alike."""
+    """One island, or ``count`` alike; ``epochs``: it breeds in so many, then rests."""
 
     kind: str
     species: Annotated[str, StringConstraints(min_length=1)] | None = None
     count: Count = 1
     population: Count = 48
+    epochs: Count | None = None
     genome: dict[str, Any] = Field(default_factory=dict)
     growth: dict[str, Any] = Field(default_factory=dict)
     fitness: Annotated[dict[str, Goal], Field(min_length=1)]
@@ -35,6 +36,7 @@ class IslandDefaults(Settings):
     species: str | None = None
     count: Count | None = None
     population: Count | None = None
+    epochs: Count | None = None
     genome: dict[str, Any] | None = None
     growth: dict[str, Any] | None = None
     fitness: dict[str, Goal] | None = None

@@ -11,7 +11,7 @@ from typing import Any, Final
 from genome.errors import InputError
 from genome.settings import describe, validated
 from growth.surface import Surface
-from orchestrator.checking import read_text, refuse_later
+from orchestrator.checking import read_text
 from orchestrator.overrides import parse_override
 
 FORMS: Final = (".glb", ".obj", ".ply", ".stl", ".png")
@@ -44,7 +44,6 @@ def engine_for(path: Path) -> Engine:
     InputError
         When its suffix belongs to none that is built.
     """
-    refuse_later(path)
     for suffix, engine in ENGINES.items():
         if path.name.endswith(suffix):
             return engine
@@ -148,5 +147,17 @@ def _body(request: Request) -> dict[str, Any] | str:
     return measure_body(request)
 
 
-ENGINES: Final[dict[str, Engine]] = {".hemls": grow_surface, ".blocks": _blocks, ".tl": _timed, ".body.json": _body}
+def _plan(request: Request) -> dict[str, Any] | str:
+    from orchestrator.growing_plans import grow_plan
+
+    return grow_plan(request)
+
+
+ENGINES: Final[dict[str, Engine]] = {
+    ".hemls": grow_surface,
+    ".blocks": _blocks,
+    ".tl": _timed,
+    ".body.json": _body,
+    ".plan": _plan,
+}
 """The engines by the suffix of the files that they grow."""

@@ -41,10 +41,16 @@ def idle(experiment: Experiment, source: str) -> tuple[str, ...]:
 
 def _too_late(channel: ChannelSettings, experiment: Experiment) -> str:
     """Say why a channel brings nothing in time: what is sent at the end of the last epoch is not taken in."""
-    epochs, first = experiment.length, channel.every if channel.kind == "migrants" else 0
+    epochs = experiment.length
+    first = next((e for e in range(channel.since, channel.since + channel.every + 1) if e % channel.every == 0), 0)
+    if first == 0 and channel.kind == "migrants":
+        first = channel.every
+    if channel.until is not None and first >= channel.until:
+        return f"no epoch from {channel.since} and before {channel.until} is one that 'every: {channel.every}' divides"
     if first >= epochs:
         return f"what it first carries, at the end of epoch {first}, comes too late for a run of {epochs} epochs"
-    last = (epochs - 1) // channel.every * channel.every * experiment.epoch
+    end = epochs if channel.until is None else min(epochs, channel.until)
+    last = (end - 1) // channel.every * channel.every * experiment.epoch
     stagnation = channel.trigger.stagnation if channel.trigger is not None else None
     if stagnation is not None and stagnation > last:
         return f"a stagnation of {stagnation} generations comes too late: it carries for the last time after {last}"

@@ -6,6 +6,7 @@ from typing import Any
 
 from genome.settings import Settings
 from islands.kinds.registry import KINDS, resolve_kind
+from orchestrator.briefs import BriefSettings
 from orchestrator.channels import OF_KIND
 from orchestrator.experiment import Experiment
 from orchestrator.topology.registry import TOPOLOGIES, resolve_topology
@@ -34,7 +35,18 @@ def experiment_schema() -> dict[str, Any]:
     # Islands may take any of their keys from `defaults`.
     definitions["IslandSettings"].pop("required", None)
     _tell_of_channels(definitions)
+    _tell_of_briefs(schema)
     return schema
+
+
+def _tell_of_briefs(schema: dict[str, Any]) -> None:
+    """Say what a brief holds, and that an experiment with one needs no islands of its own."""
+    part = BriefSettings.model_json_schema(ref_template="#/$defs/{model}")
+    schema["$defs"].update(part.pop("$defs", {}))
+    schema["$defs"]["BriefSettings"] = part
+    schema["properties"]["brief"] = {"$ref": "#/$defs/BriefSettings"}
+    schema["required"] = [key for key in schema["required"] if key != "islands"]
+    schema["anyOf"] = [{"required": ["islands"]}, {"required": ["brief"]}]
 
 
 def _tell_of_channels(definitions: dict[str, Any]) -> None:

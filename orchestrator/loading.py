@@ -78,7 +78,7 @@ def load_experiment(path: Path, overrides: Sequence[str] = (), without: Sequence
         raise InputError(source, "an experiment: keys and values", describe(data))
 
     def locate(error: InputError) -> InputError:
-        return located(error, source, document.line_of, overrides)
+        return located(of_brief(error, source, data), source, document.line_of, overrides)
 
     try:
         kept = {key: value for key, value in data.items() if key not in without}
@@ -89,6 +89,19 @@ def load_experiment(path: Path, overrides: Sequence[str] = (), without: Sequence
         return Loaded(experiment, source, path.resolve().parent, notes, locate)
     except InputError as error:
         raise locate(error) from None
+
+
+def of_brief(error: InputError, source: str, data: Mapping[str, Any]) -> InputError:
+    """Give an error about islands or channels that a brief wrote as one about the brief; any other as it is."""
+    section, _, rest = error.where.removeprefix(f"{source}: ").partition(".")
+    given = data.get(section)
+    name = rest.partition(".")[0]
+    if "brief" not in data or section not in ("islands", "channels") or (isinstance(given, Mapping) and name in given):
+        return error
+    if section == "channels" and isinstance(given, list) and given:
+        return error  # its own channels stand behind those of the brief: whose it is cannot be told by its number
+    got = f"{error.got} (in what the brief becomes: {section}.{rest})"
+    return InputError(f"{source}: brief", error.expected, got, error.remedy)
 
 
 def located(error: InputError, source: str, line_of: LineOf, overrides: Sequence[str] = ()) -> InputError:
@@ -114,6 +127,11 @@ def resolved(data: dict[str, Any], source: str) -> Experiment:
     InputError
         For the first thing that is wrong.
     """
+    if "brief" in data:
+        # Imported where it is used: criteria of plans bring the compiler with them.
+        from orchestrator.briefs import expanded
+
+        data = expanded(data, source)
     defaults = data.pop("defaults", None)
     if defaults is not None:
         validated(IslandDefaults, defaults, source, ("defaults",))

@@ -113,6 +113,7 @@ def islands_of(loaded: Loaded) -> tuple[IslandSpec, ...]:
                     algorithm=settings.algorithm,
                     source=loaded.source,
                     base=str(loaded.base),
+                    epochs=settings.epochs,
                 )
             )
     return tuple(specs)

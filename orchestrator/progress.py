@@ -73,7 +73,7 @@ def clock_text(seconds: float) -> str:
 
 @final
 class Barren:
-    """Says once of each island that all of its members are invalid, and why."""
+    """Says once of each island that it has no valid member, and why."""
 
     def __init__(self) -> None:
         self._told: dict[str, None] = {}
@@ -82,9 +82,15 @@ class Barren:
         """Give a line for each island of which nothing was said yet; beyond ``MOST_ROWS`` at once, one for the rest."""
         fresh = [row for row in rows if row.trouble and row.island not in self._told]
         self._told.update((row.island, None) for row in fresh)
-        lines = [f"note: all {row.invalid} of {row.island} are invalid, most often: {row.trouble}" for row in fresh]
+        lines = [_barren(row) for row in fresh]
         rest = len(lines) - MOST_ROWS
         return lines if rest <= 0 else [*lines[:MOST_ROWS], f"note: and all of {rest} more islands"]
+
+
+def _barren(row: IslandSummary) -> str:
+    if not row.invalid:
+        return f"note: {row.island} has no members: {row.trouble}"
+    return f"note: all {row.invalid} of {row.island} are invalid, most often: {row.trouble}"
 
 
 @final
@@ -114,7 +120,7 @@ class PlainLines:
         left = self._pace.left(epoch)
         invalid = sum(row.invalid for row in rows)
         self.note(
-            f"epoch {epoch}/{self._epochs}  generation {rows[0].generation}  best {_number(best)}  "
+            f"epoch {epoch}/{self._epochs}  generation {max(row.generation for row in rows)}  best {_number(best)}  "
             f"mean {_number(mean)}  invalid {invalid}  migrants {self._migrants}  left {clock_text(left)}"
         )
         for text in self._barren.notes(rows):

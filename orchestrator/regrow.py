@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from evaluators.plans import Layout
 from genome.errors import InputError
+from genome.settings import near
+from growth.protocol import Failure
 from islands.biologies import Biologies
+from islands.forms import written
 from islands.individual import Evaluation, Scores
-from islands.kinds.protocol import Biology
+from islands.kinds.plans import Planner
+from islands.kinds.protocol import Accompanied, Biology
+from islands.migration.channel import Migrant
 from orchestrator.circumstances import Circumstances
 from orchestrator.folder import RunFolder
 from orchestrator.loading import load_experiment
@@ -26,7 +33,7 @@ COLUMNS = "id, island, epoch, genotype, fitness, scores, error, partners"
 FORMS = """
     with top as (
         select id, fitness, if(cardinality(scores) = 0, genotype, scores::varchar) as form
-        from individuals where fitness is not null order by fitness desc, id limit {among}
+        from individuals where fitness is not null {which} order by fitness desc, id limit {among}
     ), alike as (
         select form, fitness, min(id) as id from top group by form, fitness
     ), forms as (
@@ -67,16 +74,38 @@ def by_id(folder: RunFolder, ids: Sequence[int]) -> list[Logged]:
     return [found[identity] for identity in ids]
 
 
-def best(folder: RunFolder, count: int) -> list[Logged]:
+def islands_named(folder: RunFolder, names: Sequence[str]) -> list[str]:
+    """Give the islands of a log that have these names, or are of groups that do.
+
+    Raises
+    ------
+    InputError
+        For a name that no island and no group has.
+    """
+    known = [str(name) for (name,) in ask(folder.log, "select distinct island from individuals order by island").rows]
+    found: dict[str, None] = {}
+    for name in names:
+        meant = [one for one in known if one == name or re.fullmatch(rf"{re.escape(name)}-[0-9]+", one)]
+        if not meant:
+            raise InputError("--island", "an island of this run, or a group", f"'{name}'", near(name, known))
+        found.update(dict.fromkeys(meant))
+    return list(found)
+
+
+def best(folder: RunFolder, count: int, islands: Sequence[str] = ()) -> list[Logged]:
     """Find the best individuals of different forms, best first; of equal fitness the lower id.
+
+    Of some islands alone where any are named.
 
     Those whose scores are equal to the last bit count as one form, whatever their genotypes and islands: the one of
     the highest fitness stands for it, of equal ones the lowest id. Of a kind without scores genotypes are compared.
     """
+    named = ", ".join("'" + name.replace("'", "''") + "'" for name in islands)
+    which = f"and island in ({named})" if named else ""
     among, everyone = count if count == 1 else 64 * count, 0
     while True:
         # Sought among the best alone first, since a log may hold millions.
-        rows = ask(folder.log, FORMS.format(among=int(among), count=int(count))).rows
+        rows = ask(folder.log, FORMS.format(among=int(among), count=int(count), which=which)).rows
         everyone = everyone or int(ask(folder.log, "select count(fitness) from individuals").rows[0][0])
         if len(rows) == count or among >= everyone:
             return by_id(folder, [int(identity) for (identity,) in rows])
@@ -94,13 +123,20 @@ def _logged(folder: RunFolder, clause: str) -> list[Logged]:
 
 
 class Nursery:
-    """Makes the biology of each island of a run, once."""
+    """Makes the biology of each island of a run, once.
+
+    Attributes
+    ----------
+    specs
+        All islands that the run ever had.
+    """
 
     def __init__(self, folder: RunFolder) -> None:
         loaded = load_experiment(folder.experiment)
         self._run = folder.name
         commands = read_commands(folder.store)
         plan = replayed(structure_of(loaded), commands).plan()
+        self.specs = plan.islands
         self._past = Past(commands, plan.islands)
         self._biologies = Biologies(time.thread_time)
         late = loaded.experiment.schedule == "async"
@@ -114,14 +150,30 @@ class Nursery:
         """Grow and score an individual again: among the forms, and with the partners, that it was first scored with."""
         return self._circumstances.score(logged.island, logged.epoch, logged.genotype, logged.partners)
 
+    def layout(self, logged: Logged) -> Layout | Failure:
+        """Grow an individual's plan anew and lay it out.
+
+        Raises
+        ------
+        InputError
+            When the kind of its island draws no plans.
+        """
+        biology = self.biology(logged.island, logged.epoch)
+        if not isinstance(biology, Planner):
+            raise InputError(logged.island, "an island of rooms, zones or houses", "one of another kind")
+        return biology.layout(biology.decode(logged.genotype))
+
     def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
-        """Write an individual's form as ISLAND-ID.SUFFIX."""
+        """Write an individual's form as ISLAND-ID.SUFFIX, among the partners that it was first scored with."""
         biology = self._circumstances.biology(logged.island, logged.epoch)
         stem = folder / f"{logged.island}-{logged.id}"
         facts: dict[str, str | float | bool] = {"run": self._run, "island": logged.island, "id": str(logged.id)}
         if logged.fitness is not None:
             facts["fitness"] = logged.fitness
-        return biology.write_forms(biology.decode(logged.genotype), stem, formats, facts)
+        partners: tuple[Migrant, ...] = ()
+        if isinstance(biology, Accompanied):
+            partners = self._circumstances.partners(logged.island, logged.epoch, logged.partners)
+        return written(biology, biology.decode(logged.genotype), partners, stem, formats, facts)
 
 
 def same(logged: Logged, found: Evaluation) -> bool:

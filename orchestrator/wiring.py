@@ -70,8 +70,10 @@ def wire(experiment: Experiment, islands: Sequence[IslandSpec], source: str, bas
     fits = Compatibility(islands)
     wired = wired_channels(experiment, islands, source, base, fits)
     _refuse_needy(wired, islands, fits)
+    _refuse_sharing_alone(wired, islands)
     refuse_emptied(wired, islands)
     _refuse_unreached(wired, islands, source)
+    _refuse_unfed(wired, islands, fits)
     return wired
 
 
@@ -201,6 +203,20 @@ def _refuse_needy(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: C
         raise InputError(spec.where("kind"), expected, "none", remedy)
 
 
+def _refuse_sharing_alone(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:
+    """Refuse an island that is to share fitness, and has no partners to divide, or but one."""
+    most: dict[int, int] = defaultdict(int)
+    for one in wired:
+        if one.channel.pairing is not None:
+            for number in _entered(one):
+                most[number] = max(most[number], one.channel.pairing.count)
+    for spec in islands:
+        if spec.algorithm.sharing != "none" and most[spec.number] < 2:
+            got = f"{most[spec.number] or 'no channel of partners'} to {spec.name}"
+            remedy = "it is partners that members share: add {kind: partners, pairing: several}, or take sharing: none"
+            raise InputError(spec.where("algorithm", "sharing"), "two or more pairings to share by", got, remedy)
+
+
 def refuse_emptied(wired: Sequence[Wired], islands: Sequence[IslandSpec]) -> None:
     """Refuse channels that move so many at a time that none is left."""
     leaving: dict[int, int] = defaultdict(int)
@@ -260,3 +276,43 @@ def _entered(one: Wired) -> set[int]:
     if one.redrawn is not None:
         return {number for number, _ in one.redrawn.members} if one.redrawn.weight > 0 else set()
     return {edge.target for edge in one.edges if edge.weight > 0}
+
+
+def unfed(
+    wired: Sequence[Wired], islands: Sequence[IslandSpec], among: Sequence[IslandSpec], fits: Compatibility
+) -> list[tuple[IslandSpec, ChannelKind, str]]:
+    """Give those among the islands to which something never comes that they need, the kind of channel, and its name."""
+    wanted = {(spec.number, kind): names for spec in among for kind, names in fits.needed(spec).items()}
+    if not wanted:
+        return []
+    come: dict[tuple[int, ChannelKind], set[str]] = defaultdict(set)
+    for one in wired:
+        kind = one.channel.kind
+        given = {number: fits.given(islands[number], kind) for number in _sources(one)}
+        for edge in one.edges:
+            if edge.weight > 0 and (edge.target, kind) in wanted:
+                come[edge.target, kind].add(given[edge.source])
+        if one.redrawn is not None and one.redrawn.weight > 0:
+            for number, _ in one.redrawn.members:  # in time each may show to each; nobody needs what it gives itself
+                come[number, kind] |= set(given.values())
+    return [
+        (spec, kind, name)
+        for spec in among
+        for kind, names in fits.needed(spec).items()
+        for name in names
+        if name not in come[spec.number, kind]
+    ]
+
+
+def _sources(one: Wired) -> dict[int, None]:
+    """Give the islands that a channel leads from."""
+    members = () if one.redrawn is None else one.redrawn.members
+    return dict.fromkeys([*(edge.source for edge in one.edges), *(number for number, _ in members)])
+
+
+def _refuse_unfed(wired: Sequence[Wired], islands: Sequence[IslandSpec], fits: Compatibility) -> None:
+    """Refuse an island to which channels never bring something that its kind needs."""
+    for spec, kind, name in unfed(wired, islands, islands, fits):
+        expected = f"a channel of kind {kind} that brings {spec.name} what it needs, {name}"
+        remedy = f"add {{kind: {kind}, from: ..., to: {spec.group}}} to 'channels', from islands that give it"
+        raise InputError(spec.where("kind"), expected, "none", remedy)

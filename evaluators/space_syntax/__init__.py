@@ -10,6 +10,7 @@ from evaluators.space_syntax.choice import choice, choice_share
 from evaluators.space_syntax.control import connectivity, control
 from evaluators.space_syntax.depth import mean_depth, total_depth
 from evaluators.space_syntax.graph import Graph, components, of_edges, of_matrix
+from evaluators.space_syntax.mean_rra import mean_rra
 
 __all__ = [
     "Graph",
@@ -23,6 +24,7 @@ __all__ = [
     "d_value",
     "integration",
     "mean_depth",
+    "mean_rra",
     "of_edges",
     "of_matrix",
     "ra",

@@ -53,6 +53,8 @@ def of_edges(edges: ArrayLike, count: int, where: str = "graph") -> Graph:
     InputError
         For edges of another shape or sort, or to spaces that there are not.
     """
+    if count < 0:
+        raise InputError(where, "0 spaces or more", str(count))
     pairs = np.asarray(edges)
     if not pairs.size:
         pairs = np.empty((0, 2), dtype=np.int64)

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Final
-
-from evaluators.space_syntax import mean_depth, ra, rra, total_depth
+from evaluators.space_syntax import mean_rra
 from evaluators.symbiosis.symbiosis import Symbiosis
-
-UNMEASURED: Final = 1.0
-"""What a cell without RRA counts: as deep as the root of the diamond that RRA compares with."""
 
 
 def i_value(symbiosis: Symbiosis) -> float:
@@ -17,18 +12,12 @@ def i_value(symbiosis: Symbiosis) -> float:
     Parameters
     ----------
     symbiosis
-        All of the lattice's neighbours are connected. Each connected part is measured by itself, and counts by its
-        cells. In parts of one or two cells there is no RRA, and :data:`UNMEASURED` stands in for it.
+        All of the lattice's neighbours are connected.
 
     Returns
     -------
     float
-        0 or more; 0 where all cells of each part touch each other, 1 without space.
+        As of :func:`~evaluators.space_syntax.mean_rra.mean_rra`: 0 where all cells of each part touch each other, 1
+        without space.
     """
-    around = symbiosis.surroundings
-    if not around.space.size:
-        return UNMEASURED
-    part, sizes = around.parts
-    own = sizes[part]
-    real = rra(ra(mean_depth(total_depth(around.neighbours), own), own), own)
-    return float(real.filled(UNMEASURED).mean())
+    return mean_rra(symbiosis.surroundings.neighbours)

@@ -30,7 +30,8 @@ class Symbiosis:
     lattice
         Of all.
     enclosure, space, route
-        (n, 3) int64, in the order in which they grew; empty for a species that has nobody here.
+        (n, 3) int64, cells of the lattice, which is not checked, in the order in which they grew; empty for a species
+        that has nobody here.
     settings
         How they are measured.
     """

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from growth.blocks.body import BOUNDARY, ENVELOPE, INTERNAL, Body
-from growth.blocks.forms import Floats, ramp
+from growth.blocks.lattice import Floats
+from growth.blocks.parts import ramp
 from growth.blocks.skin import body_surface, skin
 from growth.bodies import Colour
 from growth.pictures import FRONTS, STONE, render

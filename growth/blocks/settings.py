@@ -1,4 +1,4 @@
-"""How block bodies grow, apart from their rules: a part of the ``growth:`` section of an island of blocks."""
+"""How blocks grow, apart from their rules: parts of the ``growth:`` sections of islands that grow them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 
 from genome.errors import InputError
 from genome.settings import Settings, describe
-from growth.blocks.lattice import LATTICES, Lattice
+from growth.blocks.lattice import ALL_LATTICES, LATTICES, Lattice
 
 FARTHEST: Final = 500_000
 """Coordinates of cells that people give are of this size at most."""
@@ -55,7 +55,25 @@ def _as_supports(value: object) -> object:
     return None if value is None else as_cells(value)
 
 
-class BlockGrowth(Settings):
+class BlockBudget(Settings):
+    """What a growth may make.
+
+    Attributes
+    ----------
+    max_symbols
+        The longest word, brackets counted, at any moment; what needs a longer one is invalid.
+    max_blocks
+        The most blocks that the turtle may place; what has more is invalid.
+    max_seconds
+        The clock behind the budget, a safety net.
+    """
+
+    max_symbols: Annotated[int, Field(ge=1, le=FARTHEST)] = 50_000
+    max_blocks: Annotated[int, Field(ge=1, le=FARTHEST)] = 2_000
+    max_seconds: Annotated[float, Field(gt=0)] = 30.0
+
+
+class BlockGrowth(BlockBudget):
     """Settings of the growth of a block body (Senatore 2009, 'the hierarchy of the structure').
 
     Attributes
@@ -73,12 +91,6 @@ class BlockGrowth(Settings):
         Whether the body is wrapped.
     envelope_below
         Blocks of the skeleton that have fewer neighbours than this, the foundation counted, are wrapped.
-    max_symbols
-        The longest word, brackets counted, at any moment; a body that needs a longer one is invalid.
-    max_blocks
-        The most blocks of the skeleton; a body with more is invalid.
-    max_seconds
-        The clock behind the budget, a safety net.
     """
 
     lattice: Literal["cubic", "isospatial"] = "cubic"
@@ -87,9 +99,6 @@ class BlockGrowth(Settings):
     supports: Annotated[tuple[Cell, ...] | None, BeforeValidator(_as_supports)] = None
     envelope: bool = False
     envelope_below: Annotated[int, Field(ge=1, le=27)] = 2
-    max_symbols: Annotated[int, Field(ge=1, le=FARTHEST)] = 50_000
-    max_blocks: Annotated[int, Field(ge=1, le=FARTHEST)] = 2_000
-    max_seconds: Annotated[float, Field(gt=0)] = 30.0
 
     @model_validator(mode="after")
     def _on_lattice(self) -> Self:
@@ -103,14 +112,41 @@ class BlockGrowth(Settings):
         return LATTICES[self.lattice]
 
 
+class CellGrowth(BlockBudget):
+    """Settings of the growth of bare cells, which stand on no ground: walls, space, routes.
+
+    Attributes
+    ----------
+    lattice
+        ``cubic``, ``isospatial`` or ``square``, which is the plane z = 0.
+    start
+        The cell in which growth begins: where several species grow in one space, each has its place.
+    """
+
+    lattice: Literal["cubic", "isospatial", "square"] = "cubic"
+    start: Annotated[Cell, BeforeValidator(as_cell)] = (0, 0, 0)
+
+    @model_validator(mode="after")
+    def _start_on_lattice(self) -> Self:
+        check_on_lattice(self.start, self.cells)
+        return self
+
+    @property
+    def cells(self) -> Lattice:
+        """The lattice that the settings name."""
+        return ALL_LATTICES[self.lattice]
+
+
 def check_on_lattice(cell: Cell, lattice: Lattice) -> None:
     """Refuse a cell that a lattice does not have.
 
     Raises
     ------
     InputError
-        When its coordinates must add up to an even number, and do not.
+        When its coordinates must add up to an even number, and do not, or it must lie in the plane, and does not.
     """
+    if not lattice.offsets[:, 2].any() and cell[2]:
+        raise InputError("", f"cells of the {lattice.name} lattice, which lie in the plane z = 0", f"{list(cell)}")
     if lattice.parity and sum(cell) % 2:
         raise InputError("", f"cells of the {lattice.name} lattice, whose coordinates add up to an even number",
                          f"{list(cell)}")  # fmt: skip

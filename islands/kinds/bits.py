@@ -26,7 +26,7 @@ from islands.spec import IslandSpec
 
 FORMATS: Final = ("txt",)
 ALONE: Final = 0.0
-"""What agreement with a partner is worth while there is no partner."""
+"""What agreement with a partner, and what rivalry, are worth while there is no partner."""
 
 
 class BitsGenome(Settings):
@@ -88,14 +88,14 @@ class BitsBiology:
         self._one_point: Final = genome.crossover == "one_point"
         self._goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in spec.fitness.items()}
         for name in self._goals:
-            if name not in FUNCTIONS and name != "agreement":
-                known = [*FUNCTIONS, "agreement"]
+            known = [*FUNCTIONS, *RELATIONS]
+            if name not in known:
                 raise InputError(spec.where("fitness", name), "a criterion of bits", f"'{name}'", near(name, known))
-        if genome.length % growth.block and {"lolz", "trap"} & self._goals.keys():
+        if genome.length % growth.block and BLOCKWISE & self._goals.keys():
             got = f"{growth.block}, which does not divide the length of {genome.length}"
             raise InputError(spec.where("growth", "block"), "blocks that fill the string", got)
         self._functions: Final = tuple((name, FUNCTIONS[name]) for name in sorted(self._goals) if name in FUNCTIONS)
-        self._agreement: Final = "agreement" in self._goals
+        self._relations: Final = tuple((name, RELATIONS[name]) for name in sorted(self._goals) if name in RELATIONS)
         self._growth: Final = growth
         goals = {name: goal.model_dump(mode="json") for name, goal in sorted(self._goals.items())}
         meaning = [genome.length, growth.model_dump(mode="json"), goals]
@@ -142,18 +142,18 @@ class BitsBiology:
         return int(text, 2)
 
     def evaluate(self, genotype: int) -> Evaluation:
-        """Score a string by the criteria that have goals; agreement without a partner is 0."""
+        """Score a string by the criteria that have goals; those of partners are 0 without one."""
         scores = {name: measure(genotype, self._length, self._growth) for name, measure in self._functions}
-        if self._agreement:
-            scores["agreement"] = ALONE
+        scores.update((name, ALONE) for name, _ in self._relations)
         return self._evaluation(scores)
 
     def evaluate_with(self, genotype: int, partners: tuple[Migrant, ...]) -> Evaluation:
-        """Score a string with one partner of each channel; agreement is the mean over them."""
+        """Score a string with one partner of each channel; what it makes of them is the mean over them."""
         scores = {name: measure(genotype, self._length, self._growth) for name, measure in self._functions}
-        if self._agreement:
-            shares = [1 - (genotype ^ self.decode(one.text)).bit_count() / self._length for one in partners]
-            scores["agreement"] = sum(shares) / len(shares)
+        others = [self.decode(one.text) for one in partners] if self._relations else []
+        for name, relate in self._relations:
+            found = [relate(genotype, other, self._length, self._growth) for other in others]
+            scores[name] = sum(found) / len(found)
         return self._evaluation(scores)
 
     def _evaluation(self, scores: dict[str, float]) -> Evaluation:
@@ -199,8 +199,8 @@ class BitsKind:
         return {"partners": (f"bits of {spec.genome['length']}",)}
 
     def needs(self, spec: IslandSpec) -> tuple[ChannelKind, ...]:
-        """Give ``partners`` where agreement with them is a goal."""
-        return ("partners",) if "agreement" in spec.fitness else ()
+        """Give ``partners`` where what one makes of them is a goal."""
+        return ("partners",) if RELATIONS.keys() & spec.fitness.keys() else ()
 
     def build(self, spec: IslandSpec, clock: Clock) -> BitsBiology:
         """Make the biology of one island."""
@@ -257,6 +257,38 @@ FUNCTIONS: Final[Mapping[str, Callable[[int, int, BitsGrowth], float]]] = {
     "lolz": lolz,
     "trap": trap,
 }
+
+
+# -- what two strings make of each other -------------------------------------------------------------------------------
+
+
+def agreement(genotype: int, partner: int, length: int, growth: BitsGrowth) -> float:
+    """Give the share of bits that are alike."""
+    del growth
+    return 1 - (genotype ^ partner).bit_count() / length
+
+
+def rivalry(genotype: int, partner: int, length: int, growth: BitsGrowth) -> float:
+    """Tell who has more ones in the block in which the two come closest without being even: 1, or -1, or 0 if in none.
+
+    Of blocks that are equally close the first counts. It is intransitive: one may beat another that beats a third that
+    beats the first, and have fewer ones than any whom it beats (after the numbers games of Watson and Pollack 2001,
+    "Coevolutionary dynamics in a minimal substrate").
+    """
+    block, full = growth.block, (1 << growth.block) - 1
+    closest = 0
+    for shift in range(length - block, -1, -block):
+        ahead = (genotype >> shift & full).bit_count() - (partner >> shift & full).bit_count()
+        if ahead and (not closest or abs(ahead) < abs(closest)):
+            closest = ahead
+    return float((closest > 0) - (closest < 0))
+
+
+RELATIONS: Final[Mapping[str, Callable[[int, int, int, BitsGrowth], float]]] = {
+    "agreement": agreement,
+    "rivalry": rivalry,
+}
+BLOCKWISE: Final = frozenset({"lolz", "trap", "rivalry"})
 
 
 def _number(raw: bytes) -> int:

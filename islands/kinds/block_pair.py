@@ -20,8 +20,9 @@ from growth.blocks.body import Body
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.blocks import GRACE, USUAL, BlockIslandGrowth, BlocksBiology, check_formats, write_body
-from islands.kinds.bodies import BlockLoad, Cell, Cells, Scoring, check_start, outside_of, structure_of
+from islands.kinds.bodies import BODIES, BlockLoad, Cell, Cells, check_start, outside_of, structure_of
 from islands.kinds.composite import CompositeBiology, Parts
+from islands.kinds.measures import Scoring
 from islands.kinds.meshes import MESH, mesh_text
 from islands.kinds.pairs import PAIR, paired
 from islands.kinds.protocol import Facts, Keep
@@ -67,7 +68,7 @@ class PairBiology:
             BlocksBiology(part, BlockIslandGrowth.model_validate({**alone, "start": start}), {}, spec.where, clock)
             for part, start in zip((genome.first, genome.second), self._growth.starts, strict=True)
         )
-        self._scoring: Final = Scoring(spec.fitness, PAIR, spec.where, clock)
+        self._scoring: Final = Scoring(spec.fitness, BODIES, PAIR, spec.where, clock)
         self.scoring: Final = self._scoring.key("block_pair", self._growth.model_dump(mode="json"))
         self.seconds: Final = 2 * self._growth.max_seconds + GRACE
         self._whole: Final = CompositeBiology(self._parts, self._scored, self.scoring, self.seconds)

@@ -10,26 +10,16 @@ import numpy as np
 
 from genome.errors import InputError
 from genome.files import write_whole
-from genome.lsystem import (
-    LSystem,
-    LSystemGenome,
-    crossover,
-    decode,
-    encode,
-    format_blocks,
-    mutate,
-    random_system,
-    system_diversity,
-)
+from genome.lsystem import LSystem, LSystemGenome, encode, format_blocks
 from genome.settings import Settings
 from growth.blocks import BlockGrowth, grow, stand
 from growth.blocks.body import Body
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.bodies import (
+    BODIES,
     BlockLoad,
     Cell,
-    Scoring,
     body_text,
     check_start,
     is_stable,
@@ -38,6 +28,8 @@ from islands.kinds.bodies import (
     read_body_text,
     structure_of,
 )
+from islands.kinds.lsystems import LSystemBiology
+from islands.kinds.measures import Scoring
 from islands.kinds.meshes import MESH, mesh_text
 from islands.kinds.pairs import PAIR, paired
 from islands.kinds.protocol import Facts, Keep
@@ -63,7 +55,7 @@ class BlockIslandGrowth(BlockGrowth):
 
 
 @final
-class BlocksBiology:
+class BlocksBiology(LSystemBiology):
     """Breeds and scores block bodies; see :class:`islands.kinds.protocol.Biology`.
 
     Parameters
@@ -87,36 +79,12 @@ class BlocksBiology:
         clock: Clock,
     ) -> None:
         check_start(growth.start, growth, where("growth", "start"))
-        self._genome: Final = genome
+        super().__init__(genome)
         self._growth: Final = growth
         self._clock: Final = clock
-        self._scoring: Final = Scoring(goals, PAIR, where, clock)
+        self._scoring: Final = Scoring(goals, BODIES, PAIR, where, clock)
         self.scoring: Final = self._scoring.key("blocks", growth.model_dump(mode="json"))
         self.seconds: Final = growth.max_seconds + GRACE
-
-    def random(self, rng: np.random.Generator) -> LSystem:
-        """Draw an L-system."""
-        return random_system(self._genome, rng)
-
-    def crossover(self, first: LSystem, second: LSystem, rng: np.random.Generator) -> tuple[LSystem, LSystem]:
-        """Cross the production rules of two L-systems."""
-        return crossover(first, second, rng, self._genome)
-
-    def mutate(self, genotype: LSystem, rng: np.random.Generator) -> LSystem:
-        """Mutate the production rules of an L-system."""
-        return mutate(genotype, rng, self._genome)
-
-    def encode(self, genotype: LSystem) -> str:
-        """Write an L-system as JSON."""
-        return encode(genotype)
-
-    def decode(self, text: str) -> LSystem:
-        """Read an L-system."""
-        return decode(text)
-
-    def diversity(self, genotypes: Sequence[LSystem]) -> float | None:
-        """Give the mean distance of the L-systems."""
-        return system_diversity(genotypes)
 
     def evaluate(self, genotype: LSystem) -> Evaluation:
         """Grow, load and score a body: whole and alone, it stands if it is valid, and meets nobody."""

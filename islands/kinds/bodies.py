@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import Annotated, Any, Final, final
+from typing import Annotated, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,19 +14,21 @@ from pydantic import BeforeValidator
 from evaluators.blocks import BLOCK_CRITERIA, Structure, resolve, score
 from evaluators.blocks.load import LoadSettings, grown_under_load, loaded_throughout
 from evaluators.blocks.load.layers import layers
-from evaluators.fitness import Goal, total
 from genome.errors import InputError
 from genome.settings import describe
 from growth.blocks import BlockGrowth
 from growth.blocks.body import ENVELOPE, INTERNAL, Body
 from growth.blocks.settings import as_cell, check_on_lattice
-from growth.protocol import Clock, Failure
-from islands.individual import Evaluation
+from growth.protocol import Failure
+from islands.kinds.measures import Criteria
 
 Cells = NDArray[np.int64]
 
 COSTLY: Final = ("particles", "sun")
 """Criteria that take longer than all others together, and are measured where they have a goal."""
+
+BODIES: Final = Criteria(tuple(name for name in BLOCK_CRITERIA if name not in COSTLY), resolve, score)
+"""How bodies under load are measured."""
 
 Cell = Annotated[tuple[int, int, int], BeforeValidator(as_cell)]
 
@@ -107,14 +108,18 @@ def read_body_text(text: str, lattice: str) -> Cells:
     InputError
         For anything else.
     """
-    try:
-        data: Any = json.loads(text)
-    except (ValueError, RecursionError):
-        data = None
-    match data:
+    match plain(text):
         case {"lattice": str(name), "cells": [*rows], **more} if name == lattice and rows and not more:
             return np.array([as_cell(row) for row in rows], dtype=np.int64)
     raise InputError("body", f"a body on the lattice {lattice}, its cells in order of growth", describe(text))
+
+
+def plain(text: str) -> Any:  # noqa: ANN401 - plain data
+    """Read JSON; None where it is none."""
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError):
+        return None
 
 
 def outside_of(body: Body) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
@@ -126,59 +131,3 @@ def outside_of(body: Body) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     faces = [ring[start:end] for start, end in pairwise(starts)]
     triangles = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
     return surface.vertices, np.array(triangles, dtype=np.int32).reshape(-1, 3)
-
-
-@final
-class Scoring:
-    """How bodies of an island become evaluations.
-
-    Parameters
-    ----------
-    goals
-        By criterion, as an experiment has them.
-    own
-        Names of criteria that the kind itself measures.
-    where
-        Gives the place of a key of the island, for messages.
-    clock
-        For the ``*_ms`` columns.
-
-    Attributes
-    ----------
-    goals
-        By criterion.
-    """
-
-    def __init__(
-        self, goals: Mapping[str, Mapping[str, Any]], own: Sequence[str], where: Callable[..., str], clock: Clock
-    ) -> None:
-        self.goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in goals.items()}
-        usual = [name for name in BLOCK_CRITERIA if name not in COSTLY]
-        names = [name for name in dict.fromkeys([*usual, *self.goals]) if name not in own]
-        self._criteria: Final = {name: resolve(name, where("fitness", name)) for name in names}
-        self._clock: Final = clock
-
-    def key(self, kind: str, growth: Mapping[str, Any]) -> str:
-        """Hash all that a fitness depends on besides the genotype."""
-        goals = {name: goal.model_dump(mode="json") for name, goal in sorted(self.goals.items())}
-        meaning = [kind, growth, goals, sorted(self._criteria)]
-        return hashlib.sha256(json.dumps(meaning, sort_keys=True, allow_nan=False).encode()).hexdigest()
-
-    def failed(self, why: Failure, started: float) -> Evaluation:
-        """Give the evaluation of what grew to no form."""
-        notes: tuple[tuple[str, dict[str, object]], ...] = ()
-        if why.reason == "clock":
-            notes = (("clock", {"detail": why.detail}),)
-        return Evaluation(None, (), str(why), (self._clock() - started) * 1e3, 0.0, notes)
-
-    def of(self, structure: Structure | Failure, more: Mapping[str, float], started: float, grown: float) -> Evaluation:
-        """Score a structure by all criteria; ``more`` are those that the kind has measured itself."""
-        growth_ms = (grown - started) * 1e3
-        if isinstance(structure, Failure):
-            return Evaluation(None, (), str(structure), growth_ms, (self._clock() - grown) * 1e3)
-        scores = score(structure, self._criteria)
-        evaluation_ms = (self._clock() - grown) * 1e3
-        if isinstance(scores, Failure):
-            return Evaluation(None, (), str(scores), growth_ms, evaluation_ms)
-        scores |= more
-        return Evaluation(total(scores, self.goals), tuple(sorted(scores.items())), "", growth_ms, evaluation_ms)

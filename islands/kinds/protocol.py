@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from genome.settings import Settings
 from growth.protocol import Clock
@@ -115,6 +116,25 @@ class Symbiotic(Protocol[G_contra]):
 
 
 @runtime_checkable
+class Accompanied(Protocol[G_contra]):
+    """A symbiotic biology that writes individuals' forms together with their partners'."""
+
+    def write_forms_with(
+        self, genotype: G_contra, partners: tuple[Migrant, ...], stem: Path, formats: Sequence[str], facts: Facts
+    ) -> list[Path]:
+        """Grow a genotype and write its form among its partners'; as :meth:`Biology.write_forms` otherwise.
+
+        Parameters
+        ----------
+        genotype, stem, formats, facts
+            As of :meth:`Biology.write_forms`.
+        partners
+            Of one pairing, as of :meth:`Symbiotic.evaluate_with`; none where nobody has come.
+        """
+        ...
+
+
+@runtime_checkable
 class Assembling(Protocol[G]):
     """A biology whose genotypes are assembled from parts that ``components`` channels bring.
 
@@ -127,6 +147,36 @@ class Assembling(Protocol[G]):
 
     def components(self, genotype: G) -> tuple[int, ...]:
         """Give the ids of the parts that a genotype is assembled from."""
+        ...
+
+
+@runtime_checkable
+class Waiting(Protocol):
+    """A biology that may lack something to draw genotypes from, as one that assembles parts does.
+
+    Attributes
+    ----------
+    ready
+        Whether it has all that it needs; until then its island waits, without members.
+    """
+
+    @property
+    def ready(self) -> bool:
+        """See above."""
+        ...
+
+
+def is_ready(biology: object) -> bool:
+    """Tell whether a biology can draw genotypes; one that never waits can."""
+    return biology.ready if isinstance(biology, Waiting) else True
+
+
+@runtime_checkable
+class Apart(Protocol[G_contra]):
+    """A biology that gives all distances at once, faster than by the ``diversity`` of each two."""
+
+    def distances(self, genotypes: Sequence[G_contra]) -> NDArray[np.float64]:
+        """Give (n, n) float64, what ``diversity`` gives of each two, 0 on the diagonal."""
         ...
 
 
@@ -152,9 +202,10 @@ class Offering(Protocol[G_contra]):
 class Kind(Protocol):
     """An island kind: the models of its settings, and the maker of its biology.
 
-    A kind may have more attributes (see :mod:`islands.kinds.trade`). Three say what channels of other kinds than
-    ``migrants`` may join it: ``gives`` and ``takes``, from a channel's kind to names of what travels, and ``needs``;
-    each may be a method that gives it for an island. ``variation`` names the keys of ``genome`` that may differ within
+    A kind may have more attributes (see :mod:`islands.kinds.trade`). Some say what channels of other kinds than
+    ``migrants`` may join it: ``gives`` and ``takes``, from a channel's kind to names of what travels, ``needs``, the
+    channels that it cannot do without, and ``needed``, what has to come on them; each may be a method that gives it for
+    an island. ``variation`` names the keys of ``genome`` that may differ within
     a species. A kind that is :class:`Compiled` is asked to compile before its first island is made.
 
     Attributes

@@ -12,11 +12,17 @@ KINDS: Final = {
     "bits": "islands.kinds.bits:BitsKind",
     "block_pair": "islands.kinds.block_pair:BlockPairKind",
     "blocks": "islands.kinds.blocks:BlocksKind",
+    "enclosure": "islands.kinds.enclosure:EnclosureKind",
+    "house": "islands.kinds.house:HouseKind",
+    "room": "islands.kinds.room:RoomKind",
+    "route": "islands.kinds.route:RouteKind",
+    "space": "islands.kinds.space:SpaceKind",
     "surface": "islands.kinds.surface:SurfaceKind",
+    "zone": "islands.kinds.zone:ZoneKind",
 }
 """Built kinds and where they stand; imported when first used."""
 
-LATER: Final = ("enclosure", "space", "room", "zone", "house", "timed")
+LATER: Final = ("timed",)
 """Kinds that the experiment format knows and that are not built yet."""
 
 GROUP: Final = "atoll.kinds"

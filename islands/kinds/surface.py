@@ -7,10 +7,9 @@ import json
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, final
+from typing import Any, ClassVar, Final, final
 
 import numpy as np
-from pydantic import BeforeValidator, JsonValue
 
 from evaluators.fitness import Goal, total
 from evaluators.registry import CRITERIA, resolve
@@ -19,16 +18,17 @@ from genome.errors import InputError
 from genome.files import write_whole
 from genome.genr8 import Genr8Genome, Mapped
 from genome.integers import Genes, decode, encode, random_genes
-from genome.settings import Settings, describe
+from genome.settings import Settings
 from genome.variation import crossover, mutate
-from growth.environment import Environment, environment_among, environment_from, load_environment
+from growth.environment import Environment
 from growth.environment.boundaries.mesh import PlacedSettings
 from growth.hemls import SurfaceGrowth, grow, parse_system
 from growth.protocol import Clock, Failure
 from growth.surface import Surface
 from islands.diversity import hamming_diversity
 from islands.individual import Evaluation
-from islands.kinds.meshes import MESH, read_mesh_text
+from islands.kinds.environments import GivenEnvironment, environment_around, environment_of, kept_environment
+from islands.kinds.meshes import MESH
 from islands.kinds.protocol import Facts, Keep
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
@@ -37,12 +37,6 @@ MESHES: Final = ("glb", "obj", "ply", "stl")
 FORMATS: Final = (*MESHES, "png", "hemls")
 USUAL: Final = ("glb", "hemls")
 REMEMBERED: Final = 4096
-
-
-def _file_or_keys(value: object) -> object:
-    if value is None or isinstance(value, (str, dict)):
-        return value
-    raise InputError("", "an environment file's name, or an environment's keys", describe(value))
 
 
 class SurfaceIslandGrowth(SurfaceGrowth):
@@ -56,7 +50,7 @@ class SurfaceIslandGrowth(SurfaceGrowth):
         How each form that channels of surroundings bring stands in it.
     """
 
-    environment: Annotated[str | dict[str, JsonValue] | None, BeforeValidator(_file_or_keys)] = None
+    environment: GivenEnvironment = None
     surroundings: PlacedSettings = PlacedSettings()
 
 
@@ -80,7 +74,7 @@ class SurfaceBiology:
         self._growth: Final = SurfaceIslandGrowth.model_validate(dict(spec.growth))
         self._clock: Final = clock
         self._mapper: Final = _located(spec, "genome", "grammar", lambda: self._genome.mapper(Path(spec.base)))
-        self._environment: Final = environment_of(spec) if environment is None else environment
+        self._environment: Final = _grown_in(spec) if environment is None else environment
         self._goals: Final = {name: Goal.model_validate(dict(goal)) for name, goal in spec.fitness.items()}
         names = dict.fromkeys([*CRITERIA, *self._goals])
         self._criteria: Final = {name: resolve(name, spec.where("fitness", name)) for name in names}
@@ -116,8 +110,7 @@ class SurfaceBiology:
 
     def surrounded(self, forms: tuple[Migrant, ...]) -> SurfaceBiology:
         """Give the biology among these forms, closed meshes that growth may not pass (or as the settings say)."""
-        meshes = [(f"{form.id}", *read_mesh_text(form.text, f"form {form.id}")) for form in forms]
-        environment = environment_among(environment_of(self._spec), meshes, self._growth.surroundings)
+        environment = environment_around(_grown_in(self._spec), forms, self._growth.surroundings)
         return SurfaceBiology(self._spec, self._clock, environment)
 
     def evaluate(self, genotype: Genes) -> Evaluation:
@@ -193,25 +186,9 @@ class SurfaceBiology:
         return hashlib.sha256(json.dumps(meaning, sort_keys=True, allow_nan=False).encode()).hexdigest()
 
 
-def environment_of(spec: IslandSpec) -> Environment:
-    """Make the environment that an island's ``growth.environment`` names or holds.
-
-    Raises
-    ------
-    InputError
-        When it, or a mesh that it names, is not right.
-    """
-    given = spec.growth.get("environment")
-    if given is None:
-        return Environment.empty()
-    if isinstance(given, str):
-        path = Path(spec.base) / given
-        if not path.is_file():
-            where, got = spec.where("growth", "environment"), f"'{given}', which is not there"
-            raise InputError(where, "an environment file", got, f"it is looked for in {spec.base}")
-        return load_environment(path)
-    prefix = ("islands", spec.group, "growth", "environment")
-    return environment_from(given, spec.source, Path(spec.base), prefix)
+def _grown_in(spec: IslandSpec) -> Environment:
+    """Make the environment that the island's settings name or hold."""
+    return environment_of(spec, spec.growth.get("environment"), "growth", "environment")
 
 
 @final
@@ -242,29 +219,8 @@ class SurfaceKind:
             path = Path(spec.base) / grammar
             genome["grammar"] = keep("grammars", path.name, path.read_bytes())
         if growth.get("environment") is not None:
-            growth["environment"] = _kept_environment(spec, growth["environment"], keep)
+            growth["environment"] = kept_environment(spec, growth["environment"], keep, "growth", "environment")
         return genome, growth
-
-
-def _kept_environment(spec: IslandSpec, given: str | Mapping[str, Any], keep: Keep) -> str | dict[str, Any]:
-    """Keep an environment: a file without meshes as it is, any other with the meshes' copies in place of them."""
-    environment = environment_of(spec)
-    settings: dict[str, Any] = json.loads(json.dumps(environment.settings))
-    copies = {name: keep("environment", path.name, path.read_bytes()) for name, path in environment.mesh_files}
-    for boundary in settings["boundaries"]:
-        if boundary.get("mesh") is not None:
-            boundary["mesh"] = copies[boundary["mesh"]]
-    if not isinstance(given, str):
-        return settings
-    name = Path(given).name
-    if not copies:
-        return keep("environment", name, (Path(spec.base) / given).read_bytes())
-    # Paths in an environment's file are relative to that file, which lies beside its meshes.
-    for boundary in settings["boundaries"]:
-        if boundary.get("mesh") is not None:
-            boundary["mesh"] = Path(boundary["mesh"]).name
-    # JSON is YAML, and needs no writer here.
-    return keep("environment", name, (json.dumps(settings, indent=1) + "\n").encode())
 
 
 def _located(spec: IslandSpec, section: str, key: str, make: Any) -> Any:  # noqa: ANN401 - whatever is made

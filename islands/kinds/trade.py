@@ -49,6 +49,15 @@ def needs(kind: Kind, spec: IslandSpec) -> tuple[ChannelKind, ...]:
     return cast("tuple[ChannelKind, ...]", _names(_of_island(kind, "needs", spec, nothing)))
 
 
+def needed(kind: Kind, channel: ChannelKind, spec: IslandSpec) -> tuple[str, ...]:
+    """Give the names of what has to come to an island on channels of this kind, each of them; empty for none.
+
+    ``needed`` is a mapping, ``{"partners": ("space on cubic",)}``: names of what others give.
+    """
+    nothing: Mapping[str, str | Sequence[str]] = {}
+    return _names(_of_island(kind, "needed", spec, nothing).get(channel, ()))
+
+
 def variation(kind: Kind) -> frozenset[str]:
     """Give the keys of a kind's genome section that may differ within a species.
 

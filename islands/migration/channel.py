@@ -19,9 +19,9 @@ from typing import Literal, NamedTuple
 from islands.individual import Scores
 
 ChannelKind = Literal["migrants", "partners", "components", "surroundings"]
-Chooser = Literal["best", "tournament", "random", "roulette", "diverse"]
+Chooser = Literal["best", "tournament", "random", "roulette", "diverse", "spread"]
 Replacer = Literal["worst", "random", "oldest", "similar", "tournament"]
-PairingScheme = Literal["best", "random", "several", "archive"]
+PairingScheme = Literal["best", "random", "several", "archive", "mixed"]
 PairingScore = Literal["mean", "best", "worst"]
 
 
@@ -50,7 +50,8 @@ class Pairing:
     scheme
         ``best``: with the best shown. ``several``: with the ``count`` best shown. ``random``: with ``count`` of those
         shown, drawn for each member. ``archive``: with the best shown and ``count`` - 1 of the archive, drawn for each
-        epoch.
+        epoch. ``mixed``: with the best shown, some of the others shown and some of the archive, drawn for each epoch:
+        half of the ``count`` - 1 from each, the odd one from those shown.
     count
         Pairings of one member.
     score
@@ -58,12 +59,16 @@ class Pairing:
     archive
         How many past representatives are kept besides the best one shown now: the best one of each epoch before; the
         oldest go first.
+    measures
+        Whether the log tells at each epoch's end how the target's best fares against the archive
+        (:mod:`islands.watch`).
     """
 
     scheme: PairingScheme = "best"
     count: int = 1
     score: PairingScore = "mean"
     archive: int = 0
+    measures: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +107,8 @@ class Channel:
         Of ``partners`` alone.
     keep
         Of ``components`` alone: how many parts of each source a target keeps, the newest first.
+    since, until
+        It carries at the ends of epochs from ``since`` on, and before ``until``; always without one.
     """
 
     number: int
@@ -119,9 +126,13 @@ class Channel:
     trigger: Trigger | None = None
     pairing: Pairing | None = None
     keep: int = 1
+    since: int = 0
+    until: int | None = None
 
     def carries(self, epoch: int) -> bool:
         """Tell whether it carries at the end of this epoch, its trigger aside."""
+        if epoch < self.since or (self.until is not None and epoch >= self.until):
+            return False
         return epoch % self.every == 0 and (epoch > 0 or self.kind != "migrants")
 
     def size(self, population: int) -> int:

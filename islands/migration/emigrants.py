@@ -10,12 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from islands.individual import Individual
-from islands.kinds.protocol import Biology
+from islands.kinds.protocol import Apart, Biology
 from islands.migration.channel import Channel
+from islands.migration.medoids import medoids
 from islands.streams import EpochStreams, Purpose
 
 ALIKE: Final = 1e-9
 """Distances that differ by a smaller share are equal."""
+
+MOST_SPREAD: Final = 200
+"""Members whose distances are looked at for medoids."""
 
 
 @final
@@ -32,7 +36,7 @@ class Crowd:
         Ids of those who stand at the head whatever their fitness.
     """
 
-    __slots__ = ("_apart", "_biology", "_promoted", "order")
+    __slots__ = ("_apart", "_biology", "order", "promoted")
 
     def __init__(
         self,
@@ -44,7 +48,7 @@ class Crowd:
         self.order: Final = order
         self._biology: Final = biology
         self._apart = apart
-        self._promoted: Final = promoted
+        self.promoted: Final = promoted
 
     def __len__(self) -> int:
         return len(self.order)
@@ -52,14 +56,16 @@ class Crowd:
     def worth(self) -> list[float]:
         """Give the fitness of the valid, from the highest down; one who is promoted is worth as much as the best."""
         fitness = [one.fitness for one in self.order if one.fitness is not None]
-        if not self._promoted or not fitness:
+        if not self.promoted or not fitness:
             return fitness
         best = max(fitness)
-        known = [best if one.id in self._promoted else one.fitness for one in self.order]
+        known = [best if one.id in self.promoted else one.fitness for one in self.order]
         return [value for value in known if value is not None]
 
     def apart(self) -> NDArray[np.float64]:
         """Give the distances of all members from all, (n, n), 0 where the kind tells none that is a number."""
+        if self._apart is None and isinstance(self._biology, Apart):
+            self._apart = self._biology.distances([one.genotype for one in self.order])
         if self._apart is None:
             size = len(self.order)
             self._apart = np.zeros((size, size))
@@ -75,7 +81,7 @@ class Crowd:
         gone = set(places)
         left = [place for place in range(len(self.order)) if place not in gone]
         apart = None if self._apart is None else self._apart[np.ix_(left, left)]
-        return Crowd([self.order[place] for place in left], self._biology, apart, self._promoted)
+        return Crowd([self.order[place] for place in left], self._biology, apart, self.promoted)
 
 
 Choose = Callable[[Crowd, int, Channel, EpochStreams], list[int]]
@@ -153,6 +159,24 @@ def diverse(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -
     return sorted(chosen)
 
 
+def spread(crowd: Crowd, count: int, channel: Channel, streams: EpochStreams) -> list[int]:
+    """Choose those who stand for all: medoids of the valid members (:mod:`islands.migration.medoids`).
+
+    Those who are promoted come first whatever they stand for: they are a person's choice. Of a deme of more than
+    :data:`MOST_SPREAD` valid members only so many, the best, are looked at. Where there are fewer valid members than
+    are to travel the invalid fill up.
+    """
+    del channel, streams
+    size = sum(one.fitness is not None for one in crowd.order)
+    chosen = [place for place, one in enumerate(crowd.order) if one.id in crowd.promoted][:count]
+    looked_at = [place for place in range(min(size, MOST_SPREAD)) if place not in chosen]
+    wanted = min(count - len(chosen), len(looked_at))
+    near = crowd.apart()[np.ix_(looked_at, looked_at)]
+    chosen += [looked_at[place] for place in medoids(near, wanted)]
+    rest = [place for place in range(len(crowd)) if place not in chosen]
+    return sorted(chosen + rest[: count - len(chosen)])
+
+
 def _farthest(distances: NDArray[np.float64]) -> int:
     """Give the first place of the greatest distance: sums of equal terms in another order are a few bits apart."""
     greatest = float(distances.max())
@@ -165,6 +189,7 @@ CHOOSERS: Final[Mapping[str, Choose]] = {
     "random": random,
     "roulette": roulette,
     "diverse": diverse,
+    "spread": spread,
 }
 
 

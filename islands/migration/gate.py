@@ -93,7 +93,7 @@ class Gate(Generic[G]):
             return "no place left"
         newcomer: Individual[G] | None = None
         # Its genotype is read only where that is needed: most of those who come again and again are turned away.
-        if edge.adapter or packet.scoring != self._registrar.context.scoring or channel.replace in BY_GENOTYPE:
+        if edge.adapter or not self._registrar.scores_as(packet.scoring) or channel.replace in BY_GENOTYPE:
             read = self._read(edge, packet, migrant)
             if isinstance(read, str):
                 return read
@@ -125,8 +125,8 @@ class Gate(Generic[G]):
     def _read(self, edge: Edge, packet: Packet, migrant: Migrant) -> Individual[G] | str:
         """Make a member of a migrant, or give the reason why that cannot be.
 
-        It is scored again where this island scores otherwise than its source. One that comes through an adapter is
-        an individual of this island, born here.
+        It is scored again where this island scores otherwise than its source, and where fitness is shared. One that
+        comes through an adapter is an individual of this island, born here.
         """
         registrar, text = self._registrar, migrant.text
         what = "adapter" if edge.adapter else "genotype"
@@ -139,6 +139,6 @@ class Gate(Generic[G]):
             return one_line(f"{what}: {told(error)}")
         if edge.adapter:
             return registrar.bear(Birth(genotype, (migrant.id,), "adaptation"))
-        if packet.scoring != registrar.context.scoring:
+        if not registrar.scores_as(packet.scoring):
             return registrar.score_again(migrant.id, genotype, "migrant", registrar.generation)
         return Individual(migrant.id, genotype, migrant.fitness, migrant.scores, migrant.error, registrar.generation)

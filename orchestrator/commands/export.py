@@ -20,12 +20,23 @@ from orchestrator.commands._options import emit, example, json_option
     type=click.IntRange(min=1),
     help="So many of the whole run's best, of different forms (equal scores: one form); 1 without --id.",
 )
+@click.option(
+    "--island", "islands", multiple=True, help="The best of this island, or group of islands; may be repeated."
+)
 @click.option("--id", "ids", type=int, multiple=True, help="An individual's id in the log; may be repeated.")
 @click.option("--format", "formats", default="glb", show_default=True,
-              help="Suffixes separated by commas: glb, obj, ply, stl, png, hemls.")  # fmt: skip
+              help="Suffixes: glb, obj, stl, png; by kind ply, npz, hemls, blocks, svg, dxf, ifc.")  # fmt: skip
 @click.option("-o", "output", type=click.Path(path_type=Path, file_okay=False), required=True, help="A folder.")
 @json_option
-def command(run: str, best: int | None, ids: tuple[int, ...], formats: str, output: Path, as_json: bool) -> None:
+def command(
+    run: str,
+    best: int | None,
+    islands: tuple[str, ...],
+    ids: tuple[int, ...],
+    formats: str,
+    output: Path,
+    as_json: bool,
+) -> None:
     """Regrow individuals of RUN from its log and write their forms, named ISLAND-ID, into a folder."""
     from orchestrator import regrow
     from orchestrator.folder import open_run
@@ -35,8 +46,8 @@ def command(run: str, best: int | None, ids: tuple[int, ...], formats: str, outp
     if not suffixes:
         raise InputError("--format", "suffixes such as glb,png", f"'{formats}'")
     wanted = regrow.by_id(folder, ids)
-    if best is not None or not ids:
-        found = regrow.best(folder, best or 1)
+    if best is not None or islands or not ids:
+        found = regrow.best(folder, best or 1, regrow.islands_named(folder, islands))
         if not found:
             raise InputError(run, "a run with valid individuals", "none in its log so far")
         wanted += [row for row in found if row.id not in ids]

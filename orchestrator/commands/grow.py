@@ -14,6 +14,7 @@ from orchestrator.commands._options import emit, example, json_option
     epilog=example(
         "atoll grow experiments/systems/square.hemls --steps 4 -o square.glb",
         "atoll grow experiments/systems/triangle.hemls --environment site.env.yaml --set scale=1.3 --json",
+        "atoll grow experiments/systems/house.plan -o house.dxf",
         "atoll grow experiments/systems/arch.blocks --set load.axial_strength=30 --forces -o arch.png",
         "atoll grow experiments/systems/piston.tl --time 1.04 --word --json",
     ),
@@ -27,7 +28,8 @@ from orchestrator.commands._options import emit, example, json_option
 @click.option("--forces", is_flag=True, help="For block bodies: what each joint carries; the form is coloured by it.")
 @click.option("--word", is_flag=True, help="For timed systems: the word, as symbols, parameters and ages.")
 @click.option("-o", "output", type=click.Path(path_type=Path, dir_okay=False),
-              help="The form's file: .glb, .obj, .stl or .png; .ply for surfaces, .npz for block bodies.")  # fmt: skip
+              help="The form's file: .glb or .png; .obj, .stl, .ply (surfaces), .npz (block bodies), "
+              ".svg, .dxf, .ifc, .json (plans).")  # fmt: skip
 @json_option
 def command(
     file: Path,

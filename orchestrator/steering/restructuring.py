@@ -18,7 +18,7 @@ from orchestrator.compatibility import Compatibility
 from orchestrator.loading import resolved
 from orchestrator.steering.command import Command
 from orchestrator.steering.structure import Structure
-from orchestrator.wiring import needy, refuse_emptied
+from orchestrator.wiring import needy, refuse_emptied, unfed
 
 Arguments = Mapping[str, Any]
 
@@ -170,6 +170,11 @@ def _refuse_bad(before: Structure, after: Structure, epoch: int) -> None:
     for spec, kind in needy(wired, after.living(epoch), fits):
         if (spec.name, kind) not in lacked and spec.since < epoch:
             expected = f"a channel of kind {kind} to {spec.name}, which it needs"
+            raise InputError("steer", expected, "none after this command", "connect another one first")
+    missed = {(spec.name, kind, name) for spec, kind, name in unfed(fed_before, old, old, fits)}
+    for spec, kind, name in unfed(wired, islands, after.living(epoch), fits):
+        if (spec.name, kind, name) not in missed and spec.since < epoch:
+            expected = f"a channel of kind {kind} that brings {spec.name} what it needs, {name}"
             raise InputError("steer", expected, "none after this command", "connect another one first")
 
 

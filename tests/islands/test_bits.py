@@ -15,7 +15,7 @@ from scipy import stats
 
 from genome.errors import InputError
 from islands.individual import Evaluation
-from islands.kinds.bits import BitsBiology, BitsGrowth, BitsKind, leading_ones, lolz, ones, trap
+from islands.kinds.bits import BitsBiology, BitsGrowth, BitsKind, leading_ones, lolz, ones, rivalry, trap
 from islands.kinds.protocol import Biology, Kind, Symbiotic
 from islands.kinds.registry import resolve_kind
 from islands.kinds.trade import gives, takes
@@ -65,6 +65,38 @@ def test_only_all_ones_is_best(goal) -> None:
     values = {number: made.evaluate(number).fitness for number in range(256)}
     best = max(values.values())
     assert [number for number, value in values.items() if value == best] == [255]
+
+
+@given(st.text("01", min_size=12, max_size=12), st.text("01", min_size=12, max_size=12))
+def test_rivals_are_compared_where_they_are_closest_without_being_even(text, other) -> None:
+    blocks = BitsGrowth(block=4)
+    ahead = [text[n : n + 4].count("1") - other[n : n + 4].count("1") for n in (0, 4, 8)]
+    uneven = [gap for gap in ahead if gap]
+    nearest = min(uneven, key=abs, default=0)
+    expected = (nearest > 0) - (nearest < 0)
+    assert rivalry(int(text, 2), int(other, 2), 12, blocks) == expected
+    assert rivalry(int(other, 2), int(text, 2), 12, blocks) == -expected
+
+
+def test_rivalry_goes_round_in_circles() -> None:
+    # Ones in the two blocks: 0 and 1, 2 and 0, 0 and 3. Who has fewer wins, but in the last of the three.
+    first, second, third = ("000000100000", "110000000000", "000000111000")
+    made = biology("rivalry", growth={"block": 6})
+    for one, other in ((first, second), (second, third), (third, first)):
+        partner = Migrant(1, other, 0.0, (), "")
+        assert made.evaluate_with(int(one, 2), (partner,)).fitness == 1.0, one
+        assert made.evaluate(int(one, 2)).fitness == 0.0  # alone there is nobody to beat
+
+
+def test_what_one_makes_of_partners_is_the_mean_over_them() -> None:
+    made = biology("rivalry")
+    others = [Migrant(n, made.encode(one), 0.0, (), "") for n, one in enumerate((0, 2**12 - 1, 0))]
+    assert made.evaluate_with(0b000100000000, tuple(others)).scores == (("rivalry", 1 / 3),)
+    assert made.evaluate_with(0b000100000000, (others[1],)).fitness == -1.0
+    assert BitsKind().needs(spec(fitness={"rivalry": {"goal": "minimise"}})) == ("partners",)
+    assert BitsKind().needs(spec()) == ()
+    with pytest.raises(InputError, match="blocks that fill the string"):
+        biology("rivalry", growth={"block": 5})
 
 
 @given(st.integers(0, 2**12 - 1))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from types import SimpleNamespace
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import species
@@ -19,7 +21,7 @@ from traders import HouseKind, judging, trading
 
 from experiments import write
 from genome.errors import InputError
-from islands.checkpoint import Kept, check_part, read_parts, write_part
+from islands.checkpoint import Kept, Part, check_part, read_parts, write_part
 from islands.holdings import NOTHING
 from islands.individual import Individual
 from islands.kinds.bits import BitsKind as OwnBitsKind
@@ -233,3 +235,24 @@ def test_islands_that_go_on_from_parts_have_the_records_of_an_undisturbed_run(na
         held = [one.state.held for one in found.values()]
         assert any(one.partners for one in held)
         assert any(one.surroundings for one in held)
+
+
+def test_a_part_of_version_1_is_read_still(store) -> None:
+    """It has no outcomes and nothing of what is watched."""
+    whole = kept(3)
+    write_part(store, EPOCH, 0, [whole])
+    path = store.local / "checkpoints/e000003/host-00000.parquet"
+    table = pq.read_table(path).drop_columns(["outcomes"])
+    told = json.loads(table.column("state")[0].as_py())
+    del told["watched"]
+    place = table.schema.get_field_index("state")
+    table = table.set_column(place, table.schema.field(place), pa.array([json.dumps(told)]))
+    for version, is_read in (("1", True), ("3", False)):
+        pq.write_table(table.replace_schema_metadata({"atoll.checkpoint": version}), path)
+        content = path.read_bytes()
+        part = Part("checkpoints/e000003/host-00000.parquet", len(content), hashlib.sha256(content).hexdigest(), (3,))
+        if is_read:
+            assert read_parts(store, [part], [whole.island])[3].state == whole.state
+        else:
+            with pytest.raises(InputError, match="expected a part of a checkpoint, version 2, got version 3"):
+                read_parts(store, [part], [whole.island])

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from archipelagos import spec
 from bits import BitsKind
+from houses import SUPPLIED_HOUSE, SuppliedHouseKind
 from plugged import install
 
 from evaluators.registry import CRITERIA
@@ -15,8 +16,12 @@ from genome.errors import InputError
 from islands.individual import Evaluation
 from islands.kinds.block_pair import BlockPairKind
 from islands.kinds.blocks import BlocksKind
+from islands.kinds.enclosure import EnclosureKind
 from islands.kinds.protocol import Biology, Kind
 from islands.kinds.registry import KINDS, LATER, resolve_kind
+from islands.kinds.room import RoomKind
+from islands.kinds.route import RouteKind
+from islands.kinds.space import SpaceKind
 from islands.kinds.surface import SurfaceKind
 
 SURFACE = {
@@ -26,11 +31,17 @@ SURFACE = {
     "fitness": {"size": {"goal": "target", "value": 6.0}, "undulation": {"goal": "maximise"}},
 }
 LOADED = {"growth": {"max_blocks": 80, "load": {"axial_strength": 90}}, "fitness": {"height": {"goal": "maximise"}}}
+CELLS = {"genome": {}, "growth": {"max_blocks": 80}, "fitness": {"evenness": {"goal": "maximise"}}}
 EVERY = [
     (BitsKind, {}),
     (SurfaceKind, SURFACE),
     (BlocksKind, {"kind": "blocks", "genome": {}, **LOADED}),
     (BlockPairKind, {"kind": "block_pair", "genome": {}, **LOADED}),
+    (EnclosureKind, {"kind": "enclosure", **CELLS}),
+    (RouteKind, {"kind": "route", **CELLS}),
+    (SpaceKind, {"kind": "space", **CELLS}),
+    (RoomKind, {"kind": "room", "genome": {"cells": 9}, "growth": {}, "fitness": {"corners": {"goal": "minimise"}}}),
+    (SuppliedHouseKind, SUPPLIED_HOUSE),
 ]
 
 
@@ -178,14 +189,14 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     names = {
         "words": "bits:BitsKind",
         "surface": "bits:BitsKind",
-        "room": "bits:BitsKind",
         "extra": "bits:BitsKind [x]",
     }
     install(tmp_path, monkeypatch, "atoll.kinds", **names)
-    assert {resolve_kind(name, "here").name for name in ("words", "room", "extra")} == {"bits"}
+    assert {resolve_kind(name, "here").name for name in ("words", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
-    with pytest.raises(InputError, match="known now: bits, block_pair, blocks, extra, room, surface, words"):
-        resolve_kind("house", "here")
+    known = sorted({*KINDS, "words", "extra"})
+    with pytest.raises(InputError, match=f"known now: {', '.join(known)}"):
+        resolve_kind("timed", "here")
 
 
 @pytest.fixture

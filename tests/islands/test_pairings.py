@@ -109,6 +109,34 @@ def test_of_an_archive_the_best_shown_and_others_drawn_for_each_epoch() -> None:
     assert chosen(partners(scheme="archive", count=1, archive=9), full) == ([7], 0)
 
 
+def test_mixed_takes_the_best_shown_others_shown_and_past_ones_drawn_for_each_epoch() -> None:
+    channel = partners(scheme="mixed", count=4, archive=9)
+    now = Held(0, 1, tuple(shown(n, 9.0 - n) for n in (1, 2, 3, 4)))
+    full = held(now, archives=(Past(0, (shown(1), shown(11), shown(3), shown(12))), Past(1, (shown(99),))))
+    # The odd one of the three is of those shown; 3 is shown now, as it was before, and is no past one.
+    found = Counter(tuple(chosen(channel, full, epoch)[0]) for epoch in range(6000))
+    assert set(found) == {(1, a, b, c) for a, b in ((2, 3), (2, 4), (3, 4)) for c in (11, 12)}
+    assert stats.chisquare(list(found.values())).pvalue > 1e-3
+    assert chosen(channel, full)[1] == 0
+    # One that shows something else now than it did is a past one still.
+    changed = held(now, archives=(Past(0, (shown(1), shown(3, ones=2))),))
+    assert {tuple(chosen(channel, changed, epoch)[0])[3] for epoch in range(9)} == {3}
+
+
+def test_mixed_fills_up_from_where_there_are_more() -> None:
+    channel = partners(scheme="mixed", count=5, archive=3)
+    now = Held(0, 1, tuple(shown(n, 9.0 - n) for n in (1, 2, 3)))
+    past = tuple(shown(n) for n in (1, 11, 12, 13, 14))
+    assert chosen(channel, held(now)) == ([1, 2, 3], 0)
+    four = Held(0, 1, tuple(shown(n, 9.0 - n) for n in (1, 2, 3, 4)))
+    assert chosen(partners(scheme="mixed", count=4, archive=3), held(four)) == ([1, 2, 3, 4], 0)
+    assert chosen(channel, held(now, archives=(Past(0, past[:2]),))) == ([1, 2, 3, 11], 0)
+    alone = Held(0, 1, (shown(1),))
+    assert chosen(channel, held(alone, archives=(Past(0, past),))) == ([1, 11, 12, 13], 0)  # no more than the archive
+    whole = {tuple(chosen(channel, held(now, archives=(Past(0, past),)), epoch)[0]) for epoch in range(99)}
+    assert whole == {(1, 2, 3, a, b) for a, b in ((11, 12), (11, 13), (12, 13))}
+
+
 def test_until_each_channel_has_shown_someone_there_are_no_pairings() -> None:
     assert sides_of([partners(0), partners(1)], POOL, EpochStreams(4, 1, 1)) is None
     assert sides_of([], POOL, EpochStreams(4, 1, 1)) is None

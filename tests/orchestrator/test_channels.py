@@ -114,8 +114,8 @@ def test_resolved_channels_resolve_to_themselves_and_tell_their_defaults(tmp_pat
     assert prepare(again)[0].edges == plan.edges
     told = loaded.data()["channels"]
     assert told[0] == {
-        "kind": "migrants", "topology": "ring", "among": "host", "unreached": "refuse", "every": 1, "count": 2,
-        "select": "best", "tournament": 2, "routing": "broadcast", "weight": 1.0, "replace": "worst",
+        "kind": "migrants", "topology": "ring", "among": "host", "unreached": "refuse", "every": 1, "since": 0,
+        "count": 2, "select": "best", "tournament": 2, "routing": "broadcast", "weight": 1.0, "replace": "worst",
         "accept": "always", "mode": "copy",
     }  # fmt: skip
     assert told[1].keys() & {"replace", "accept", "mode", "keep", "unreached"} == set()

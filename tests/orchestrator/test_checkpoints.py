@@ -217,7 +217,7 @@ def test_one_of_another_version_is_refused_whatever_else_it_holds(store) -> None
     store.write(JSON, json.dumps({"version": "9", "islands": []}).encode())
     with pytest.raises(ForeignError) as caught:
         newest(store, RUN, SEED)
-    expected = "expected a checkpoint of version 1, got one of version 9; go on with the Atoll that wrote it"
+    expected = "expected a checkpoint of version 2, got one of version 9; go on with the Atoll that wrote it"
     assert str(caught.value) == f"{JSON}: {expected}"
 
 

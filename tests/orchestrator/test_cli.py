@@ -117,9 +117,7 @@ def test_bad_input_is_one_message_and_exit_code_two(tmp_path, done) -> None:
     refused(atoll("replay", done, "--id", 10**15), "--id: expected an individual of the log")
     refused(atoll("export", done, "--format", "doc", "-o", tmp_path / "forms"), "--format")
     refused(atoll("grow", tmp_path / "none.hemls"), "expected a rule file, got no such file")
-    refused(atoll("grow", "x.plan"), "'.plan', which comes later")
-    refused(atoll("check", "x.plan"), "'.plan', which comes later")
-    refused(atoll("grow", "x.txt"), "expected a rule file (.hemls, .blocks, .tl, .body.json)")
+    refused(atoll("grow", "x.txt"), "expected a rule file (.hemls, .blocks, .tl, .body.json, .plan)")
     refused(atoll("check", tmp_path / "none.txt"), "no such file")
     assert atoll("run").exit_code == 2
     assert atoll("bogus").exit_code == 2
@@ -367,6 +365,15 @@ def test_show_tells_nothing_stale_of_a_deme_that_is_all_invalid_now(tmp_path) ->
     log.flush()
     (island,) = last_json(atoll("show", folder, "--json"))["islands"]
     assert (island["generation"], island["best"], island["mean"], island["invalid"]) == (1, None, None, 12)
+
+
+def test_export_takes_the_best_of_islands_and_of_groups(done, tmp_path) -> None:
+    names = [path.stem for path in (Path(done) / "forms").iterdir()]
+    island = max(name.split("-best")[0] for name in names)
+    told = last_json(atoll("export", done, "--island", island, "--format", "txt", "-o", tmp_path / "x", "--json"))
+    (file,) = told["files"]
+    assert Path(file).name.startswith(f"{island}-")
+    refused(atoll("export", done, "--island", "nowhere", "--format", "txt", "-o", tmp_path / "y"), "--island")
 
 
 def test_an_export_that_fails_leaves_no_folder_and_one_that_cannot_be_written_is_bad_input(done, tmp_path) -> None:

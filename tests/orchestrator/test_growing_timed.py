@@ -95,3 +95,4 @@ def test_bad_input_is_told_in_a_line(tmp_path: Path) -> None:
     refused("expected key=value or define.NAME=value", "grow", PISTON, "--time", 1, "--set", "a.b=3")
     refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "square.hemls", "--word")
     refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "arch.blocks", "--word")
+    refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "house.plan", "--word")

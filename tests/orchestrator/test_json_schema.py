@@ -57,3 +57,13 @@ def test_the_schema_is_one_and_takes_what_is_resolved(tmp_path) -> None:
     jsonschema.validate(trading(), schema)
     jsonschema.validate(load_experiment(write(tmp_path, trading())).data(), schema)
     assert schema["$defs"]["ChannelSettings"]["properties"]["topology"]["anyOf"][0]["examples"] == list(TOPOLOGIES)
+
+
+def test_a_brief_is_described_and_stands_in_the_place_of_islands() -> None:
+    schema = experiment_schema()
+    brief = {"rooms": {"a": {"cells": 2}}, "zones": {"z": ["a"]}, "adjacencies": [["a", "b", 2.0], ["a", "c"]]}
+    valid = jsonschema.Draft202012Validator(schema).is_valid
+    assert valid({"brief": {**brief, "site": {"outline": [[0, 0], [1, 0], [0, 1]]}}})
+    assert not valid({})
+    assert not valid({"brief": {**brief, "rooms": {"a": {"area": 2}}}})
+    assert not valid({"brief": {**brief, "adjacencies": [["a"]]}})

@@ -163,7 +163,7 @@ MISTAKES = [
     (
         "channels.0.select",
         "worst",
-        "channels.0.select: expected 'best', 'tournament', 'random', 'roulette' or 'diverse'",
+        "channels.0.select: expected 'best', 'tournament', 'random', 'roulette', 'diverse' or 'spread'",
     ),
     ("channels.1.to", "west", "channels.1.to: expected an island of the experiment, got 'west'"),
     ("channels.1.to", "south", "channels.1.to: expected two islands, got 'south' twice"),

@@ -42,6 +42,16 @@ def into(kind: str, what: str, topology: bool = False) -> str:
     return json.dumps(data, indent=1)
 
 
+def partners(sharing: str = "none", topology: object = None, count: int = 2, **channel: object) -> str:
+    """Two species of the project's own bits that are worth what they agree; the channel to the second is given."""
+    fitness = {"agreement": {"goal": "maximise"}}
+    islands = {name: {"species": name, "count": count, "fitness": fitness} for name in ("host", "guest")}
+    islands["guest"]["algorithm"] = {"sharing": sharing}
+    ends = {"from": "host", "to": "guest"} if topology is None else {"topology": topology, "among": "guest"}
+    channels = [{"kind": "partners", "from": "guest", "to": "host"}, {"kind": "partners", **ends, **channel}]
+    return json.dumps(bits(defaults={"kind": "bits"}, islands=islands, channels=channels), indent=1)
+
+
 TWICE = """
 islands:
   north: {kind: "bits:BitsKind", fitness: {ones: {goal: maximise}}}
@@ -92,6 +102,45 @@ CASES = {
     "partners of drawn edges": (
         into("HollowKind", "partners", topology=True), "islands.guest.kind", "expected a kind with evaluate_with, got"
     ),
+    "partners from an island to itself": (
+        partners(**{"from": "guest-0", "to": "guest-0"}), "channels.1.to", "got 'guest-0' twice; a channel to itself ca"
+    ),
+    "partners one to one with themselves": (
+        partners(**{"from": "guest", "to": "guest", "join": "matching"}), "channels.1.to", "got 'guest-0' twice"
+    ),
+    "partners on an edge to itself": (
+        partners(topology={"name": "edges", "edges": [["guest-0", "guest-1"], ["guest-1", "guest-1"]]}),
+        "channels.1.topology.edges.1", "got 'guest-1' twice"
+    ),
+    "no archive to mix with": (
+        partners(pairing="mixed"), "channels.1.archive", "an archive of 1 or more for pairing: mixed with pairin"
+    ),
+    "an archive too small to mix with": (
+        partners(pairing="mixed", pairings=7, archive=2), "channels.1.archive", "archive of 3 or more for pairing: mix"
+    ),
+    "a mixture of two": (
+        partners(pairing="mixed", pairings=2, archive=2), "channels.1.pairings", "expected 3 or more with pairing: mix"
+    ),
+    "a mixture with too few shown": (
+        partners(pairing="mixed", pairings=5, archive=4), "channels.1.pairings",
+        "expected at most 2, as many as are shown to guest-0, got 5, of which 3 are with some of those shown; raise 'co"
+    ),
+    "no archive to measure against": (
+        partners(measures=True), "channels.1.measures", "an archive to measure the best against, got none; add archive"
+    ),
+    "migrants that are measured": (
+        seven(topology="ring", measures=True), "channels.0.measures", "'measures' on a channel of kind partners alone"
+    ),
+    "fitness shared by one pairing": (
+        partners("competitive"), "islands.guest.algorithm.sharing", "two or more pairings to share by, got 1 to guest-0"
+    ),
+    "fitness shared without partners": (
+        json.dumps(bits(defaults={"kind": "bits", "fitness": {"ones": {"goal": "maximise"}},
+                                  "algorithm": {"sharing": "competitive"}}, islands={"a": {"count": 2}},
+                        channels=[{"topology": "ring"}]), indent=1),
+        "islands.a.algorithm.sharing", "got no channel of partners to a-0; it is partners that members share: add"
+    ),
+    "fitness shared by a word": (partners("fair"), "islands.guest.algorithm.sharing", "'none' or 'competitive', got "),
     "two islands of one name": (TWICE, "", "each key once, got 'north' again (line 3)"),
     "two islands of one name by count": (NUMBERED, "islands.north-1", "'north-1', a name that the islands of 'north'"),
 }  # fmt: skip
@@ -109,6 +158,27 @@ def test_the_project_s_own_kind_needs_partners_where_agreement_is_a_goal(tmp_pat
         assert (
             f"islands.{lacking}.kind: expected a channel of kind partners to {lacking}, which it needs" in result.stderr
         )
+
+
+def test_a_circle_of_one_island_brings_it_no_partners(tmp_path) -> None:
+    path = tmp_path / "wrong.yaml"
+    path.write_text(partners(topology="ring", count=1), encoding="utf-8")
+    for arguments in (["check", path], ["run", path, "--runs-dir", tmp_path / "runs"]):
+        result = CliRunner().invoke(main, [str(argument) for argument in arguments])
+        assert result.exit_code == 2
+        assert "islands.guest.kind: expected a channel of kind partners to guest, which it needs, got" in result.stderr
+
+
+def test_two_islands_of_one_species_may_be_each_other_s_partners(tmp_path) -> None:
+    for text in (
+        partners(topology="ring"),
+        partners(**{"from": "guest", "to": "guest"}),
+        partners(topology="complete"),
+    ):
+        path = tmp_path / "fine.yaml"
+        path.write_text(text, encoding="utf-8")
+        result = CliRunner().invoke(main, ["check", str(path)])
+        assert result.exit_code == 0, result.stderr
 
 
 @pytest.mark.parametrize("name", CASES)

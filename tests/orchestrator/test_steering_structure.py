@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from rooms import house
 from steered import Steered
 
 from experiments import bits, write
@@ -134,6 +135,23 @@ def test_an_island_keeps_the_channel_that_its_kind_needs(tmp_path) -> None:
     assert other.channel_names(3) == {"b": 1, "more": 2}
     new = replayed(begun, [command(begun, 3, "add-island", "c", like="a")])
     assert len(new.living(3)) == 3, "one that is new is not connected yet"
+
+
+def test_an_island_keeps_the_channel_that_brings_what_its_kind_needs(tmp_path) -> None:
+    data = house()
+    data["islands"]["ways"] = {"kind": "route", "count": 1, "fitness": {"route": {"goal": "maximise"}}}
+    ways = [("rooms", "ways"), ("walls", "ways")]
+    data["channels"] += [{"kind": "partners", "from": one, "to": other, "name": one} for one, other in ways]
+    begun = structure_of(load_experiment(write(tmp_path, data)))
+    for gone, missing in (("rooms", "space"), ("walls", "enclosure")):
+        told = (
+            f"steer: expected a channel of kind partners that brings ways what it needs, {missing} on cubic, got none"
+        )
+        with pytest.raises(InputError, match=told):
+            after(begun, (3, "disconnect", gone))
+    connect = (3, "connect", "{kind: partners, from: rooms-0, to: ways, name: more}")
+    other = after(begun, connect, (3, "disconnect", "rooms"))
+    assert "more" in other.channel_names(3)
 
 
 def test_a_run_whose_structure_changes_goes_as_one_that_knew_of_it_from_the_start(begun) -> None:

@@ -14,6 +14,7 @@ from islands.individual import Individual
 from islands.migration.channel import Migrant, Packet
 from islands.state import State
 from islands.steered import Steered
+from islands.watch import Known, Watch
 
 FLOATS = st.floats(allow_nan=False)
 IDS = st.integers(0, 2**62)
@@ -45,16 +46,22 @@ STEERED = st.builds(
 )
 
 
+OUTCOMES = st.lists(st.tuples(st.text(), st.none() | FLOATS), max_size=3).map(tuple)
+KNOWN = st.lists(st.builds(Known, IDS, st.text()), max_size=2).map(tuple)
+WATCHES = st.lists(st.builds(Watch, NUMBERS, KNOWN, NUMBERS), max_size=2).map(tuple)
+
+
 def demes(genotypes: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
-    members = st.builds(Individual, IDS, genotypes, st.none() | FLOATS, SCORES, st.text(max_size=20), NUMBERS)
+    members = st.builds(Individual, IDS, genotypes, st.none() | FLOATS, SCORES, st.text(max_size=20), NUMBERS, OUTCOMES)
     return st.lists(members, max_size=4).map(tuple)
 
 
 def states(epoch: int, genotypes: st.SearchStrategy[Any]) -> st.SearchStrategy[State[Any]]:
     """States at the end of an epoch, empty demes among them."""
     return st.builds(
-        State, demes(genotypes), st.just(epoch), NUMBERS, IDS, st.none() | FLOATS, NUMBERS, HOLDINGS, ODD_TEXT, STEERED
-    )
+        State, demes(genotypes), st.just(epoch), NUMBERS, IDS, st.none() | FLOATS, NUMBERS, HOLDINGS, ODD_TEXT, STEERED,
+        WATCHES,
+    )  # fmt: skip
 
 
 def packets(epoch: int, target: int) -> st.SearchStrategy[tuple[Packet, ...]]:

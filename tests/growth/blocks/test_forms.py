@@ -16,8 +16,9 @@ from genome.errors import InputError
 from genome.lsystem import LSystem, parse_word
 from growth.blocks import BlockGrowth, Body, body_surface, grow, stand
 from growth.blocks.body import BOUNDARY, ENVELOPE, INTERNAL, SYSTEMS
-from growth.blocks.forms import WRITERS, ramp, write_form
+from growth.blocks.forms import WRITERS, write_form
 from growth.blocks.lattice import LATTICES
+from growth.blocks.parts import ramp
 from growth.blocks.pictures import body_picture
 from growth.environment.boundaries.files import read_mesh
 from growth.forms import to_trimesh

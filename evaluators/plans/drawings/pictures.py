@@ -1,0 +1,32 @@
+"""Plans of cubes as pictures, through the pictures of surfaces."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+
+from evaluators.plans.drawings.glb import cube_parts
+from evaluators.plans.drawings.solids import Floats, Indices
+from evaluators.plans.layout import Layout
+from growth.pictures import render
+from growth.surface import Surface
+
+
+def cubes_png(layout: Layout, size: tuple[int, int] = (1000, 750)) -> bytes:
+    """Draw the rooms of a plan of cubes, each in a colour, from the south-west above, so many pixels wide and high."""
+    parts = cube_parts(layout)
+    colours = [np.tile(np.array(part.colour) / 255.0, (len(part.solid.triangles) // 2, 1)) for part in parts]
+    image = render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours, size=size)
+    stream = io.BytesIO()
+    image.save(stream, format="PNG", optimize=True)
+    return stream.getvalue()
+
+
+def _surface(vertices: Floats, triangles: Indices) -> Surface:
+    """Give faces of cubes as squares: their first halves come before all second ones."""
+    one, other = triangles[: len(triangles) // 2], triangles[len(triangles) // 2 :]
+    rings = np.column_stack([one, other[:, 2]])
+    none = np.empty((0, 2), dtype=np.int32)
+    starts = np.arange(0, rings.size + 1, 4, dtype=np.int32)
+    return Surface(vertices, none, none[:, 0], (), starts, rings.reshape(-1).astype(np.int32))
