@@ -183,6 +183,11 @@ def test_a_chance_that_is_left_asks_again_after_as_long() -> None:
     assert ages == {8.5}
 
 
+def test_without_time_passing_a_chance_is_asked_once() -> None:
+    counts = [symbols("axiom " + "A " * 2000 + "\nA @ 0 -> B : 0.25\n", time).count("A") for time in (0.0, 50.0)]
+    assert counts[0] == counts[1] == pytest.approx(1500, abs=90)
+
+
 def test_productions_share_by_their_chances() -> None:
     text = "axiom " + "A " * 6000 + "\nA -> B : 0.2\nA -> C : 0.3\nA -> D\nA -> E\n"
     word = symbols(text, 1.0)
