@@ -88,7 +88,7 @@ def put_token(out: Bytes, size: int, letters: Bytes, first: int, end: int, numbe
 
 @njit(cache=True, inline="always")
 def repeated(stack: Ints, top: int, gene: int) -> bool:
-    """Tell whether a repetition goes on, and count it: it stops when the gene modulo (count + 2) is at most the count."""
+    """Tell whether a repetition goes on, and count it; it ends when gene mod (count + 2) is at most the count."""
     if gene % (stack[top - 1] + 2) <= stack[top - 1]:
         return False
     stack[top - 1] += 1
@@ -96,7 +96,7 @@ def repeated(stack: Ints, top: int, gene: int) -> bool:
 
 
 @njit(cache=True)
-def expand(
+def expand(  # noqa: C901 - one dispatch loop over ten operations
     code: Ints,
     choices: Ints,
     targets: Ints,
@@ -129,26 +129,11 @@ def expand(
     text : (t,) uint8
         What was written, a separator before each token.
     """
-    if genes.min() < 0:
-        return NEGATIVE, start[2], start[3], 0, np.empty(0, dtype=np.uint8)
-    return run(code, choices, targets, letters, spans, genes, start, limits)
-
-
-@njit(cache=True)
-def run(  # noqa: C901 - one dispatch loop over ten operations
-    code: Ints,
-    choices: Ints,
-    targets: Ints,
-    letters: Bytes,
-    spans: Ints,
-    genes: Ints,
-    start: tuple[int, int, int, int],
-    limits: tuple[int, int, int, int],
-) -> tuple[int, int, int, int, Bytes]:
-    """Do what the grammar's operations say, from a call of the non-terminal on; as :func:`expand`, genes being good."""
     argument, depth, reads, labels = start
     bound, max_depth, max_reads, max_tokens = limits
     out = np.empty(1024, dtype=np.uint8)
+    if genes.min() < 0:
+        return NEGATIVE, reads, labels, 0, out[:0]
     # The counter of a repetition lies on top of the frame that it belongs to.
     stack = np.empty(256, dtype=np.int64)
     size = written = top = base = gene = 0
