@@ -20,8 +20,8 @@ from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.assemblies import AssemblyGrowth
 from islands.kinds.measures import Criteria, Scoring
+from islands.kinds.planned import shape_diversity
 from islands.kinds.protocol import Facts, Keep
-from islands.kinds.room import shape_diversity
 from islands.spec import IslandSpec
 
 ROOMS: Final = ("shape", "whole")

@@ -5,11 +5,11 @@ To add a criterion, write it in a file of its own and name it in :data:`CRITERIA
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, Final, TypeAlias
 
-from evaluators.plugins import find_function
+from evaluators.catalogue import Catalogue
 from evaluators.size import size
 from evaluators.smoothness import smoothness
 from evaluators.soft_boundaries import soft_boundaries
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
 Criterion: TypeAlias = "Callable[[Surface, Environment], float]"
 """A function of a form and the environment that it grew in to one finite number; it changes neither."""
 
-GROUP = "atoll.evaluators"
-"""The entry points' group of installed plug-ins."""
-
 CRITERIA: Mapping[str, Criterion] = MappingProxyType(
     {
         "size": size,
@@ -39,26 +36,6 @@ CRITERIA: Mapping[str, Criterion] = MappingProxyType(
 )
 """The project's own criteria."""
 
-
-def resolve(name: str, where: str = "fitness") -> Criterion:
-    """Find one criterion.
-
-    Parameters
-    ----------
-    name
-        A key of :data:`CRITERIA`, ``package.module:object``, or the name of an entry point of the group
-        ``atoll.evaluators``. The project's own names cannot be taken by a plug-in.
-    where
-        The place that an error names.
-
-    Raises
-    ------
-    InputError
-        Where there is no such criterion, it cannot be imported, or it cannot be called.
-    """
-    return cast("Criterion", find_function(name, where, "criterion", CRITERIA, GROUP))
-
-
-def resolve_all(names: Iterable[str], where: str = "fitness") -> dict[str, Criterion]:
-    """Find several criteria, in the order given."""
-    return {name: resolve(name, where) for name in names}
+_FOUND: Final = Catalogue[Criterion](CRITERIA)
+resolve = _FOUND.resolve
+resolve_all = _FOUND.resolve_all

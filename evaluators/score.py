@@ -32,15 +32,12 @@ def score(
     Returns
     -------
     dict of str to float, or Failure
-        Finite scores in the order of the criteria; or ``evaluation`` with the first criterion that raised an exception
-        or did not give a finite number.
+        As of :func:`evaluators.applying.applied`.
 
     Raises
     ------
     InputError
         For a name that is no criterion.
-    KeyboardInterrupt
-        On Ctrl-C.
     """
-    found = criteria if isinstance(criteria, Mapping) else resolve_all(criteria)
+    found = resolve_all(criteria)
     return applied(found, read_only(surface), environment)

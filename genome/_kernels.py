@@ -1,6 +1,7 @@
 """The grammar machine: expands a genome over a compiled grammar with an explicit stack.
 
-`tests/support/reference_mapper.py` is the same thing as plain recursion, and must give equal results.
+`tests/support/reference_mapper.py` is the same thing as plain recursion, and must give equal results. Parts of the
+machine are inlined where they are called: a call that hands over arrays takes longer than what they do.
 """
 
 from __future__ import annotations
@@ -61,6 +62,39 @@ def put_number(out: Bytes, size: int, number: int) -> int:
     return size + digits
 
 
+@njit(cache=True, inline="always")
+def opened(stack: Ints, top: int, address: int, base: int, bound: int) -> Ints:
+    """Open a frame on top of the stack: return address, the caller's frame, bound labels (-1 until read)."""
+    if top + 2 + bound > stack.size:
+        stack = larger(stack, top + 2 + bound)
+    stack[top] = address
+    stack[top + 1] = base
+    for i in range(top + 2, top + 2 + bound):
+        stack[i] = -1
+    return stack
+
+
+@njit(cache=True, inline="always")
+def put_token(out: Bytes, size: int, letters: Bytes, first: int, end: int, number: int) -> tuple[Bytes, int]:
+    """Write a word, and a label's number if it is 0 or more; give ``out``, larger where need be, and its new size."""
+    needed = size + end - first + DIGITS
+    if needed > out.size:
+        out = larger(out, needed)
+    size = put(out, size, letters, first, end)
+    if number >= 0:
+        size = put_number(out, size, number)
+    return out, size
+
+
+@njit(cache=True, inline="always")
+def repeated(stack: Ints, top: int, gene: int) -> bool:
+    """Tell whether a repetition goes on, and count it; it ends when gene mod (count + 2) is at most the count."""
+    if gene % (stack[top - 1] + 2) <= stack[top - 1]:
+        return False
+    stack[top - 1] += 1
+    return True
+
+
 @njit(cache=True)
 def expand(  # noqa: C901 - one dispatch loop over ten operations
     code: Ints,
@@ -97,21 +131,16 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
     """
     argument, depth, reads, labels = start
     bound, max_depth, max_reads, max_tokens = limits
-    stem = spans.shape[0] - 1
     out = np.empty(1024, dtype=np.uint8)
-    # A call opens a frame: return address, the caller's frame, bound labels (-1 until read). The counter of a
-    # repetition lies on top of the frame that it belongs to.
+    if genes.min() < 0:
+        return NEGATIVE, reads, labels, 0, out[:0]
+    # The counter of a repetition lies on top of the frame that it belongs to.
     stack = np.empty(256, dtype=np.int64)
     size = written = top = base = gene = 0
-    operation, pc = CALL, -1
+    operation, pc, at = CALL, -1, reads % genes.size
     depth -= 1
-    at = reads % genes.size
-    if genes.min() < 0:
-        return NEGATIVE, reads, labels, written, out[:0]
     while True:
-        number = -1
-        if operation == BOUND:
-            number = stack[base + 2 + argument]
+        number = stack[base + 2 + argument] if operation == BOUND else -1
         if operation <= TEST and number < 0:
             if reads == max_reads:
                 return OUT_OF_GENES, reads, labels, written, out[:0]
@@ -122,57 +151,34 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
             if written == max_tokens:
                 return TOO_LONG, reads, labels, written, out[:0]
             written += 1
-            word = argument
-            if operation <= BOUND:
-                word = stem
-                if number < 0:
-                    number = gene % (labels + 1)
-                    labels = max(labels, number + 1)
-                if operation == BOUND:
-                    stack[base + 2 + argument] = number
-            needed = size + spans[word, 1] - spans[word, 0] + DIGITS
-            if needed > out.size:
-                out = larger(out, needed)
-            size = put(out, size, letters, spans[word, 0], spans[word, 1])
-            if number >= 0:
-                size = put_number(out, size, number)
-        elif operation == CALL:
-            if top + 2 + bound > stack.size:
-                stack = larger(stack, top + 2 + bound)
-            stack[top] = pc
-            stack[top + 1] = base
-            for i in range(top + 2, top + 2 + bound):
-                stack[i] = -1
-            base = top
-            top += 2 + bound
-            depth += 1
-            pc = chosen(choices, targets, argument, gene, depth >= max_depth - 1)
-        elif operation == CHOOSE:
+            word = argument if operation == WRITE else spans.shape[0] - 1
+            if operation <= BOUND and number < 0:
+                number = gene % (labels + 1)
+                labels = max(labels, number + 1)
+            if operation == BOUND:
+                stack[base + 2 + argument] = number
+            out, size = put_token(out, size, letters, spans[word, 0], spans[word, 1], number)
+        elif operation in (CALL, CHOOSE):
+            if operation == CALL:
+                stack = opened(stack, top, pc, base, bound)
+                base, top, depth = top, top + 2 + bound, depth + 1
             pc = chosen(choices, targets, argument, gene, depth >= max_depth - 1)
         elif operation == OPTION:
             pc = pc if gene % 2 == 1 else argument
         elif operation == REPEAT:
-            if top == stack.size:
-                stack = larger(stack, top + 1)
+            stack = larger(stack, top + 1) if top == stack.size else stack
             stack[top] = 0
             top += 1
         elif operation == TEST:
-            if gene % (stack[top - 1] + 2) <= stack[top - 1]:
-                top -= 1
-                pc = argument
-            else:
-                stack[top - 1] += 1
+            if not repeated(stack, top, gene):
+                top, pc = top - 1, argument
         elif operation == JUMP:
             pc = argument
         else:  # END
-            pc = stack[base]
-            top = base
-            base = stack[base + 1]
-            depth -= 1
+            pc, top, base, depth = stack[base], base, stack[base + 1], depth - 1
             if top == 0:
                 return DONE, reads, labels, written, out[:size]
-        operation = code[pc, 0]
-        argument = code[pc, 1]
+        operation, argument = code[pc, 0], code[pc, 1]
         pc += 1
 
 

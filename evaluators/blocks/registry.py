@@ -5,9 +5,9 @@ To add one, write it in a file of its own and name it in :data:`BLOCK_CRITERIA`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Final, cast
+from typing import Final
 
 from evaluators.blocks.accessibility import accessibility
 from evaluators.blocks.blocks import blocks
@@ -23,13 +23,10 @@ from evaluators.blocks.stability import stability
 from evaluators.blocks.structure import Structure
 from evaluators.blocks.sun import sun
 from evaluators.blocks.symmetry import symmetry
-from evaluators.plugins import find_function
+from evaluators.catalogue import Catalogue
 
 BlockCriterion = Callable[[Structure], float]
 """A function of a body under load to one finite number; it changes nothing."""
-
-GROUP: Final = "atoll.evaluators"
-"""The entry points' group of installed plug-ins, that of all criteria."""
 
 BLOCK_CRITERIA: Final[Mapping[str, BlockCriterion]] = MappingProxyType(
     {
@@ -51,26 +48,6 @@ BLOCK_CRITERIA: Final[Mapping[str, BlockCriterion]] = MappingProxyType(
 )
 """The project's own criteria of block bodies."""
 
-
-def resolve(name: str, where: str = "fitness") -> BlockCriterion:
-    """Find one criterion.
-
-    Parameters
-    ----------
-    name
-        A key of :data:`BLOCK_CRITERIA`, ``package.module:object``, or the name of an entry point of the group
-        ``atoll.evaluators``.
-    where
-        The place that an error names.
-
-    Raises
-    ------
-    InputError
-        Where there is no such criterion, it cannot be imported, or it cannot be called.
-    """
-    return cast("BlockCriterion", find_function(name, where, "criterion", BLOCK_CRITERIA, GROUP))
-
-
-def resolve_all(names: Iterable[str], where: str = "fitness") -> dict[str, BlockCriterion]:
-    """Find several criteria, in the order given."""
-    return {name: resolve(name, where) for name in names}
+_FOUND: Final = Catalogue[BlockCriterion](BLOCK_CRITERIA)
+resolve = _FOUND.resolve
+resolve_all = _FOUND.resolve_all

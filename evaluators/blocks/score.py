@@ -23,15 +23,12 @@ def score(structure: Structure, criteria: Iterable[str] | Mapping[str, BlockCrit
     Returns
     -------
     dict of str to float, or Failure
-        Finite scores in the order of the criteria; or ``evaluation`` with the first criterion that raised an exception
-        or did not give a finite number.
+        As of :func:`evaluators.applying.applied`.
 
     Raises
     ------
     InputError
         For a name that is no criterion.
-    KeyboardInterrupt
-        On Ctrl-C.
     """
-    found = criteria if isinstance(criteria, Mapping) else resolve_all(criteria)
+    found = resolve_all(criteria)
     return applied(found, Structure(read_only(structure.body), read_only(structure.load)))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Final, cast
+from typing import Final
 
 from evaluators.applying import applied, read_only
+from evaluators.catalogue import Catalogue
 from evaluators.plans.adjacency import adjacency, met
 from evaluators.plans.compactness import corners, perimeter, perimeter_to_area
 from evaluators.plans.layout import Layout
@@ -15,13 +16,10 @@ from evaluators.plans.shapes import proportions
 from evaluators.plans.site import site
 from evaluators.plans.syntax import i_value
 from evaluators.plans.ways import circulation, reachable
-from evaluators.plugins import find_function
 from growth.protocol import Failure
 
 PlanCriterion = Callable[[Layout], float]
 """A function of a plan as it is laid out to one finite number; it changes nothing."""
-
-GROUP: Final = "atoll.evaluators"
 
 PLAN_CRITERIA: Final[Mapping[str, PlanCriterion]] = MappingProxyType(
     {
@@ -46,10 +44,8 @@ PLAN_CRITERIA: Final[Mapping[str, PlanCriterion]] = MappingProxyType(
 COSTLY: Final = ("i_value",)
 """Criteria that take longer than all others together, and are measured where they have a goal."""
 
-
-def resolve(name: str, where: str = "fitness") -> PlanCriterion:
-    """Find one criterion; see :func:`evaluators.plugins.find_function`."""
-    return cast("PlanCriterion", find_function(name, where, "criterion", PLAN_CRITERIA, GROUP))
+_FOUND: Final = Catalogue[PlanCriterion](PLAN_CRITERIA)
+resolve = _FOUND.resolve
 
 
 def score(layout: Layout, criteria: Mapping[str, PlanCriterion]) -> dict[str, float] | Failure:

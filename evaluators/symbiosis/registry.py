@@ -5,11 +5,11 @@ To add one, write it in a file of its own and name it in :data:`SYMBIOSIS_CRITER
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Final, cast
+from typing import Final
 
-from evaluators.plugins import find_function
+from evaluators.catalogue import Catalogue
 from evaluators.symbiosis.counts import enclosure_cells, route_cells, space_cells
 from evaluators.symbiosis.evenness import evenness
 from evaluators.symbiosis.exposure import particles, sun
@@ -24,9 +24,6 @@ from evaluators.symbiosis.volume import economy, enclosed, enclosed_ratio
 
 SymbiosisCriterion = Callable[[Symbiosis], float]
 """A function of partners in one space to one finite number; it changes nothing."""
-
-GROUP: Final = "atoll.evaluators"
-"""The entry points' group of installed plug-ins, that of all criteria."""
 
 LOGGED: Final[Mapping[str, SymbiosisCriterion]] = MappingProxyType(
     {
@@ -58,26 +55,6 @@ SYMBIOSIS_CRITERIA: Final[Mapping[str, SymbiosisCriterion]] = MappingProxyType(
 )
 """The project's own criteria of symbiotic species; the last two take long, and are scored where there is a goal."""
 
-
-def resolve(name: str, where: str = "fitness") -> SymbiosisCriterion:
-    """Find one criterion.
-
-    Parameters
-    ----------
-    name
-        A key of :data:`SYMBIOSIS_CRITERIA`, ``package.module:object``, or the name of an entry point of the group
-        ``atoll.evaluators``.
-    where
-        The place that an error names.
-
-    Raises
-    ------
-    InputError
-        Where there is no such criterion, it cannot be imported, or it cannot be called.
-    """
-    return cast("SymbiosisCriterion", find_function(name, where, "criterion", SYMBIOSIS_CRITERIA, GROUP))
-
-
-def resolve_all(names: Iterable[str], where: str = "fitness") -> dict[str, SymbiosisCriterion]:
-    """Find several criteria, in the order given."""
-    return {name: resolve(name, where) for name in names}
+_FOUND: Final = Catalogue[SymbiosisCriterion](SYMBIOSIS_CRITERIA)
+resolve = _FOUND.resolve
+resolve_all = _FOUND.resolve_all

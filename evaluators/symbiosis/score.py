@@ -25,17 +25,14 @@ def score(
     Returns
     -------
     dict of str to float, or Failure
-        Finite scores in the order of the criteria; or ``evaluation`` where the partners span too large a box, or with
-        the first criterion that raised an exception or did not give a finite number.
+        As of :func:`evaluators.applying.applied`; ``evaluation`` too where the partners span too large a box.
 
     Raises
     ------
     InputError
         For a name that is no criterion.
-    KeyboardInterrupt
-        On Ctrl-C.
     """
-    found = criteria if isinstance(criteria, Mapping) else resolve_all(criteria)
+    found = resolve_all(criteria)
     seen = read_only(symbiosis)
     try:
         _ = seen.surroundings

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Self, final
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BeforeValidator, Field, model_validator
 
 from evaluators.plans import COSTLY, PLAN_CRITERIA, Brief, Layout, laid_out, resolve, score
@@ -26,9 +25,10 @@ from islands.individual import Evaluation
 from islands.kinds.measures import Criteria, Scoring
 from islands.kinds.meshes import mesh_text
 from islands.kinds.parts import DEMAND, demand_text, part_text, read_part_text
+from islands.kinds.planned import FRESH, PlannedBiology, freshness
 from islands.kinds.plans import write_plans
 from islands.kinds.protocol import Facts, Keep
-from islands.kinds.room import FRESH, SECONDS, freshness, part_of, shape_distances, shape_diversity
+from islands.kinds.room import part_of
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
 
@@ -104,7 +104,7 @@ class AssemblyGrowth(Settings):
 
 
 @final
-class AssemblyBiology:
+class AssemblyBiology(PlannedBiology[Assembly]):
     """Breeds and scores zones, or houses; see :class:`islands.kinds.protocol.Biology`.
 
     Parameters
@@ -117,8 +117,6 @@ class AssemblyBiology:
         Those to draw from, by name; none as long as nothing has risen.
     """
 
-    seconds: Final = SECONDS
-
     def __init__(self, spec: IslandSpec, clock: Clock, parts: Mapping[str, Sequence[Part]] | None = None) -> None:
         self._spec: Final = spec
         self._clock: Final = clock
@@ -126,7 +124,7 @@ class AssemblyBiology:
         self._growth: Final = AssemblyGrowth.model_validate(dict(spec.growth))
         self._name: Final = part_of(spec)
         self._brief: Final = _in_order(self._growth.brief, self._genome.rooms, spec)
-        self._tiling: Final = self._brief.cells
+        super().__init__(self._brief.cells)
         self._parts: Final = {name: tuple((parts or {}).get(name, ())) for name in self._genome.parts}
         self._scoring: Final = Scoring(spec.fitness, PLAN, (FRESH,), spec.where, clock)
         for name in self._growth.required:
@@ -203,29 +201,9 @@ class AssemblyBiology:
         changed = redraw_assembly(genotype, place, self._tiling, rng)
         return changed if isinstance(changed, Assembly) else genotype
 
-    def encode(self, genotype: Assembly) -> str:
-        """Write a plan as JSON, its parts whole."""
-        return encode(genotype)
-
     def decode(self, text: str) -> Assembly:
         """Read a plan."""
         return decode_assembly(text)
-
-    def evaluate(self, genotype: Assembly) -> Evaluation:
-        """Conjoin the parts and judge the plan; nobody asks for fresh ones."""
-        return self._scored(genotype, ())
-
-    def evaluate_with(self, genotype: Assembly, partners: tuple[Migrant, ...]) -> Evaluation:
-        """Judge a plan by what the islands above use and miss, too."""
-        return self._scored(genotype, partners)
-
-    def diversity(self, genotypes: Sequence[Assembly]) -> float | None:
-        """Give the mean distance of the plans, room by room."""
-        return shape_diversity([form_of(one, self._tiling) for one in genotypes])
-
-    def distances(self, genotypes: Sequence[Assembly]) -> NDArray[np.float64]:
-        """Give the distances of the plans, room by room."""
-        return shape_distances([form_of(one, self._tiling) for one in genotypes])
 
     def offer(self, genotype: Assembly, kind: ChannelKind) -> str:
         """Give a named part to components, a demand to partners, the solid that it fills to surroundings."""
@@ -256,7 +234,8 @@ class AssemblyBiology:
         plan = form_of(genotype, self._tiling)
         return plan if isinstance(plan, Failure) else laid_out(plan, self._brief)
 
-    def _scored(self, genotype: Assembly, partners: tuple[Migrant, ...]) -> Evaluation:
+    def scored(self, genotype: Assembly, partners: tuple[Migrant, ...]) -> Evaluation:
+        """Conjoin the parts and judge the plan, by what the islands above use and miss, too."""
         started = self._clock()
         layout = self.layout(genotype)
         if isinstance(layout, Failure):

@@ -11,18 +11,18 @@ from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final, Literal, final
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import Field
 
 from evaluators.plans import Brief, Layout, laid_out
 from evaluators.rooms import ROOM_CRITERIA, resolve, score
 from genome.polyform import Conjoining, Room, crossover, decode_room, encode
 from genome.settings import Settings
-from growth.polyforms import TILINGS, Plan, Polyform, distances, draw_room, form_of, grow_room, redraw_room
+from growth.polyforms import TILINGS, Plan, draw_room, form_of, grow_room, redraw_room
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.measures import Criteria, Scoring
-from islands.kinds.parts import DEMAND, part_text, read_demand_text
+from islands.kinds.parts import DEMAND, part_text
+from islands.kinds.planned import FRESH, PlannedBiology, freshness
 from islands.kinds.plans import write_plans
 from islands.kinds.protocol import Facts, Keep
 from islands.migration.channel import ChannelKind, Migrant
@@ -30,11 +30,6 @@ from islands.spec import IslandSpec
 
 ROOM: Final = Criteria(tuple(ROOM_CRITERIA), resolve, score)
 """How rooms are measured."""
-
-FRESH: Final = "fresh"
-"""How far a room's shape is from those that unsatisfied upper islands use, 0 to 1; 0 where all are satisfied."""
-
-SECONDS: Final = 1.0
 
 
 class RoomGenome(Settings):
@@ -68,7 +63,7 @@ class RoomGrowth(Settings):
 
 
 @final
-class RoomBiology:
+class RoomBiology(PlannedBiology[Room]):
     """Breeds and scores rooms; see :class:`islands.kinds.protocol.Biology`.
 
     Parameters
@@ -79,13 +74,11 @@ class RoomBiology:
         For the ``*_ms`` columns.
     """
 
-    seconds: Final = SECONDS
-
     def __init__(self, spec: IslandSpec, clock: Clock) -> None:
         self._genome: Final = RoomGenome.model_validate(dict(spec.genome))
+        super().__init__(TILINGS[self._genome.tiling])
         self._growth: Final = RoomGrowth.model_validate(dict(spec.growth))
         self._name: Final = part_of(spec)
-        self._tiling: Final = TILINGS[self._genome.tiling]
         self._clock: Final = clock
         self._scoring: Final = Scoring(spec.fitness, ROOM, (FRESH,), spec.where, clock)
         self.scoring: Final = self._scoring.key("room", self._genome.model_dump(mode="json"))
@@ -111,29 +104,9 @@ class RoomBiology:
             return genotype
         return redraw_room(genotype, int(rng.integers(0, len(genotype.joins))), self._tiling, rng)
 
-    def encode(self, genotype: Room) -> str:
-        """Write a room as JSON."""
-        return encode(genotype)
-
     def decode(self, text: str) -> Room:
         """Read a room."""
         return decode_room(text)
-
-    def evaluate(self, genotype: Room) -> Evaluation:
-        """Grow and score a room; nobody asks for fresh ones."""
-        return self._scored(genotype, ())
-
-    def evaluate_with(self, genotype: Room, partners: tuple[Migrant, ...]) -> Evaluation:
-        """Score a room by what the islands above use and miss."""
-        return self._scored(genotype, partners)
-
-    def diversity(self, genotypes: Sequence[Room]) -> float | None:
-        """Give the mean distance of the shapes."""
-        return shape_diversity([form_of(one, self._tiling) for one in genotypes])
-
-    def distances(self, genotypes: Sequence[Room]) -> NDArray[np.float64]:
-        """Give the distances of the shapes."""
-        return shape_distances([form_of(one, self._tiling) for one in genotypes])
 
     def offer(self, genotype: Room, kind: ChannelKind) -> str:
         """Give a named part to components, the room to others."""
@@ -152,50 +125,14 @@ class RoomBiology:
         rooms = {self._name: {"cells": self._genome.cells}}
         return Brief.model_validate({"tiling": self._genome.tiling, "unit": self._growth.unit, "rooms": rooms})
 
-    def _scored(self, genotype: Room, partners: tuple[Migrant, ...]) -> Evaluation:
+    def scored(self, genotype: Room, partners: tuple[Migrant, ...]) -> Evaluation:
+        """Grow and score a room by its shape, and by what the islands above use and miss."""
         started = self._clock()
         form = grow_room(genotype, self._tiling)
         if isinstance(form, Failure):
             return self._scoring.failed(form, started)
         grown = self._clock()
         return self._scoring.of(form, {FRESH: freshness(form, self._name, partners)}, started, grown)
-
-
-def freshness(form: Polyform | Plan, name: str, partners: Sequence[Migrant]) -> float:
-    """Give the least distance from the parts of this name that unsatisfied upper islands use, times what they miss.
-
-    Parameters
-    ----------
-    form
-        A part of this name.
-    name
-        Its name.
-    partners
-        What upper islands show, see :mod:`islands.kinds.parts`.
-    """
-    found = []
-    for one in partners:
-        demand = read_demand_text(one.text)
-        used = demand.parts.get(name)
-        shape = None if used is None else form_of(used, form.tiling)
-        if demand.met < 1.0 and isinstance(shape, Plan):
-            found.append((1.0 - demand.met) * float(distances([form, shape])[0, 1]))
-    return min(found, default=0.0)
-
-
-def shape_distances(forms: Sequence[Plan | Failure]) -> NDArray[np.float64]:
-    """Give the distances of forms, (n, n), 0 to 1; what cannot be grown is as far from all as can be."""
-    grown = [place for place, one in enumerate(forms) if isinstance(one, Plan)]
-    found = np.ones((len(forms), len(forms)))
-    found[np.ix_(grown, grown)] = distances([one for one in forms if isinstance(one, Plan)])
-    np.fill_diagonal(found, 0.0)
-    return found
-
-
-def shape_diversity(forms: Sequence[Plan | Failure]) -> float | None:
-    """Give the mean distance of all pairs of forms, 0 to 1; ``None`` for fewer than two."""
-    count = len(forms)
-    return float(shape_distances(forms).sum()) / (count * (count - 1)) if count > 1 else None
 
 
 def part_of(spec: IslandSpec) -> str:

@@ -41,14 +41,15 @@ def plan(folder: Path, text: str) -> Path:
     return path
 
 
-def refused(path: Path, said: str, *arguments: object) -> None:
-    for command in ("grow", "check"):
-        if command == "check" and arguments:
-            continue
+def complaints(path: Path, *arguments: object) -> list[str]:
+    """Give the one line by which ``grow``, and without arguments ``check``, refuse a file."""
+    found = []
+    for command in ("grow",) if arguments else ("grow", "check"):
         result = atoll(command, path, *arguments)
         assert result.exit_code == 2, result.output
-        assert said in result.stderr
-        assert len(result.stderr.strip().splitlines()) == 1
+        (line,) = result.stderr.strip().splitlines()
+        found.append(line)
+    return found
 
 
 def test_the_papers_trimino() -> None:
@@ -96,7 +97,8 @@ def test_triangles_point_up_or_down(tmp_path: Path) -> None:
     told = grown(plan(tmp_path, "tiling: triangle\nunit: 2\nroom: [down, D1]\n"))
     assert (told["cells"], told["perimeter"]) == (2, 4.0)
     assert told["area"] == pytest.approx(2 * 3**0.5)
-    refused(plan(tmp_path, "tiling: triangle\nroom: [up, Z1]\n"), "x.plan:2: room.1: expected a vector's letter (A, B")
+    lines = complaints(plan(tmp_path, "tiling: triangle\nroom: [up, Z1]\n"))
+    assert all("x.plan:2: room.1: expected a vector's letter (A, B" in line for line in lines)
     result = atoll("grow", plan(tmp_path, "tiling: triangle\nroom: [up, D1]\n"))
     assert (result.exit_code, "there is no free edge D1" in result.stderr) == (1, True)
 
@@ -112,7 +114,8 @@ def test_plans_are_written_in_each_format(suffix: str, tmp_path: Path) -> None:
 def test_cubes_have_no_floor_plan(tmp_path: Path) -> None:
     path = plan(tmp_path, "tiling: cube\nroom: [U1, N1]\n")
     assert grown(path, "-o", tmp_path / "x.glb")["cells"] == 3
-    refused(path, "drawing: expected a plan on one floor, got one of cubes", "-o", tmp_path / "x.svg")
+    (line,) = complaints(path, "-o", tmp_path / "x.svg")
+    assert "drawing: expected a plan on one floor, got one of cubes" in line
 
 
 @pytest.mark.parametrize(
@@ -134,7 +137,9 @@ def test_cubes_have_no_floor_plan(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_files_are_refused(text: str, said: str, tmp_path: Path) -> None:
-    refused(plan(tmp_path, text), said)
+    lines = complaints(plan(tmp_path, text))
+    assert len(lines) == 2
+    assert all(said in line for line in lines), lines
 
 
 @pytest.mark.parametrize(
@@ -149,4 +154,5 @@ def test_wrong_files_are_refused(text: str, said: str, tmp_path: Path) -> None:
     ],
 )
 def test_options_of_other_engines_are_refused(arguments: tuple[object, ...], said: str) -> None:
-    refused(SYSTEMS / "trimino.plan", said, *arguments)
+    (line,) = complaints(SYSTEMS / "trimino.plan", *arguments)
+    assert said in line
