@@ -21,7 +21,7 @@ from growth.protocol import Clock, Failure
 from growth.timed import _kernels
 from growth.timed.program import Program, compile_system
 from growth.timed.settings import TimedGrowth
-from growth.timed.tables import CODE, DIES, EVENTS, MODULES, ROLES, START, START_CODE, TROUBLES, Ints, Modules
+from growth.timed.tables import CODE, DIES, EVENTS, KEY, MODULES, ROLES, START, START_CODE, TROUBLES, Ints, Modules
 from growth.timed.word import Word
 
 CLOSE: Final = 2.0**-40
@@ -105,7 +105,7 @@ class Derivation:
             return Failure("expression", f"{TROUBLES[trouble]}, in {role} at time {self.time:.9g}")
         codes, starts = state.whole[:, CODE].copy(), np.append(state.whole[:, START], len(values))
         return Word(self.time, program.names, program.commands, codes, starts, values, ages, factors,
-                    program.radians)  # fmt: skip
+                    program.radians, state.whole[:, KEY].copy())  # fmt: skip
 
 
 def begin(system: TimedSystem, seed: int = 0, budget: TimedGrowth | None = None) -> Derivation | Failure:

@@ -34,6 +34,9 @@ class Word:
         (m,) float64, what the parameters were scaled by; 1 where a symbol has no development function.
     radians
         Whether turns are in radians, and not in degrees.
+    lineages
+        (m,) int64, who a module is: equal at all times at which it lives, of no other module (but by a chance of
+        2**-64).
     """
 
     time: float
@@ -45,6 +48,7 @@ class Word:
     ages: Floats
     factors: Floats
     radians: bool
+    lineages: Ints
 
     def __len__(self) -> int:
         return len(self.codes)
