@@ -97,7 +97,7 @@ def smooth_body(vertices: Floats, triangles: NDArray[np.int32], colours: Floats,
     corners = vertices[triangles]
     flat = newell_normals(corners)
     unit = _unit(flat)
-    normals = _rounded(triangles.reshape(-1), np.repeat(flat, 3, axis=0), np.repeat(unit, 3, axis=0))
+    normals = _rounded(triangles.reshape(-1).astype(np.int64), np.repeat(flat, 3, axis=0), np.repeat(unit, 3, axis=0))
     lines = np.where(_creased(triangles.astype(np.int64), unit), line, 0.0)
     return Bodies(corners, normals.reshape(-1, 3, 3), colours, colours, lines)
 
