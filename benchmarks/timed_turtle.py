@@ -142,7 +142,7 @@ def walking() -> bool:
     )
     ratio, by_hand = (statistics.median(b / a for a, b in zip(mine, other, strict=True)) for other in (theirs, hand))
     print(f"timed_turtle: {len(word)} modules in {told(mine)}, plain turtle in {told(theirs)}: {ratio:.1f} times as "
-          f"fast (at least {LEAST_RATIO:g}), {by_hand:.1f} times the bare one; whole drawing {told(whole)}")  # fmt: skip
+          f"fast (at least {LEAST_RATIO:g}), {by_hand:.1f} times the bare one; drawn in {told(whole)}")  # fmt: skip
     return ratio >= LEAST_RATIO
 
 
