@@ -22,6 +22,7 @@ COMMANDS: Final = {
     "digest": "Give one hash of what happened in a run.",
     "replay": "Regrow a logged individual and score it again.",
     "export": "Write forms of a run's individuals.",
+    "refine": "Repair, remesh or smooth a form, or make it a solid.",
     "sheet": "Draw a run's best plans side by side.",
     "schema": "Print the JSON Schema of the experiment file.",
 }
