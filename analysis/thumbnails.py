@@ -29,7 +29,7 @@ class Thumbnails:
     folder
         The run.
     size
-        Width and height in pixels.
+        Width and height in pixels; :data:`SIZE` without.
 
     Attributes
     ----------
@@ -37,9 +37,9 @@ class Thumbnails:
         Why pictures are missing, in the order in which that was found out; each once.
     """
 
-    def __init__(self, folder: RunFolder, size: tuple[int, int] = SIZE) -> None:
+    def __init__(self, folder: RunFolder, size: tuple[int, int] | None = None) -> None:
         self._folder: Final = folder
-        self._size: Final = size
+        self._size: Final = size or SIZE
         self._nursery: Nursery | None = None
         self._drawn: Final[dict[int, Image | None]] = {}
         self.troubles: Final[dict[str, None]] = {}

@@ -28,7 +28,7 @@ with recursive descent as (
     select d.parent from ancestry a join descent d using (id)
 )
 select i.island, i.epoch, count(*) as ancestors
-from ancestry join individuals i using (id) group by all order by min(i.id) over (partition by i.island), i.epoch
+from ancestry join individuals i using (id) group by all order by i.island, i.epoch
 """
 
 LINE: Final = """
@@ -58,6 +58,8 @@ def ancestors(folder: RunFolder, best: int | None) -> Section:
     figures = [Figure("Champions of the species", sql, champions, shown=True)]
     for species, identity, *_ in champions.rows[:MOST]:
         shown, found = asked(folder, ANCESTORS.format(champion=int(identity)))
+        if sum(int(row[2]) for row in found.rows) == 1:
+            continue  # it is of the first population
         islands = list(dict.fromkeys(str(row[0]) for row in found.rows))
         size = (WIDTH, max(HEIGHT * 0.6, 0.8 + 0.26 * len(islands)))
         svg = drawn(f"ancestors {species}", lambda axes, found=found: _draw(axes, found), size)  # type: ignore[misc]
@@ -80,5 +82,5 @@ def _draw(axes: Any, answer: Answer) -> None:  # noqa: ANN401 - matplotlib's
     axes.set_yticks(range(len(islands)), islands)
     axes.set_ylim(-0.7, len(islands) - 0.3)
     axes.set_xlabel("epoch")
-    axes.margins(x=0.06)
+    axes.set_xlim(-0.4, max(int(row[1]) for row in answer.rows) + 0.4)
     axes.xaxis.get_major_locator().set_params(integer=True)

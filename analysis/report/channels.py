@@ -84,11 +84,17 @@ def _map(axes: Any, answer: Answer) -> None:  # noqa: ANN401 - matplotlib's
         if source == target:
             _loop(axes, places[source], kind, style)
             continue
-        arrow = {"arrowstyle": "-|>", "connectionstyle": f"arc3,rad={bend}", "shrinkA": 17, "shrinkB": 17, **style}
+        arrow = {
+            "arrowstyle": "-|>,head_width=0.3,head_length=0.6",
+            "connectionstyle": f"arc3,rad={bend}",
+            "shrinkA": 20,
+            "shrinkB": 20,
+            **style,
+        }
         axes.annotate("", places[target], places[source], arrowprops=arrow)
     for name, (x, y) in places.items():
-        axes.plot(x, y, "o", markersize=26, color="#ffffff", markeredgecolor="#333333", markeredgewidth=1.2, zorder=3)
-        axes.text(x, y, name, ha="center", va="center", fontsize=8, zorder=4)
+        box = {"boxstyle": "round,pad=0.4", "facecolor": "#ffffff", "edgecolor": "#333333"}
+        axes.text(x, y, name, ha="center", va="center", fontsize=9, bbox=box, zorder=4)
     marks = [Line2D([], [], color=KINDS[kind], linestyle=STROKES[kind], lw=1.6, label=kind)
              for kind in KINDS if any(one == kind for _, _, one in weights)]  # fmt: skip
     axes.legend(handles=marks, frameon=False, fontsize=8, loc="upper left", bbox_to_anchor=(-0.02, 1.06), ncols=4)

@@ -34,7 +34,9 @@ def _picture(cell: Cell | None, thumbnails: Thumbnails) -> Picture:
     if cell is None:
         return Picture("", "nobody valid yet")
     image = thumbnails.of(cell.id)
-    caption = f"{cell.fitness:.5g} · {cell.id} · epoch {cell.epoch}"
+    caption = f"{cell.fitness:.5g}, id {cell.id}"
+    if cell.epoch != cell.stage:
+        caption += f", bred in epoch {cell.epoch}"
     if image is None:
         return Picture("", caption)
     return Picture("data:image/jpeg;base64," + base64.b64encode(jpeg(image)).decode("ascii"), caption)
