@@ -63,6 +63,17 @@ def test_defines_budget_and_seed_can_be_set() -> None:
     assert "bush.tl did not grow: budget: more modules at time 9 than the 50 that max_modules allows" in few.stderr
 
 
+def test_symbols_that_draw_nothing_are_named(tmp_path: Path) -> None:
+    odd = tmp_path / "odd.tl"
+    odd.write_text("equiv F leg\naxiom leg(1) Z A B\nA -> A B\n", encoding="utf-8")
+    assert grown(odd, "--time", 1)["ignored"] == ["Z", "B"]
+    assert "ignored" not in grown(PISTON, "--time", 1)
+    checked = atoll("check", odd)
+    assert checked.exit_code == 0
+    assert f"note: {odd}: the turtle draws nothing for Z, B; such a symbol needs an equiv" in checked.stderr
+    assert "note" not in atoll("check", PISTON).stderr
+
+
 def test_a_growth_that_fails_exits_with_one(tmp_path: Path) -> None:
     bad = tmp_path / "bad.tl"
     bad.write_text("axiom A(0)\nA(x) @ 2 -> B(1/x)\n", encoding="utf-8")
