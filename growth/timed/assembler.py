@@ -12,7 +12,7 @@ import numpy as np
 from genome.errors import InputError
 from genome.timed import Binary, Call, Expression, Name, Number, Scope, Unary
 from genome.timed.expression import CONSTANTS, DEVELOPMENT, DRAWS
-from growth.timed import _kernels
+from growth.timed import _expressions
 from growth.timed.tables import (
     BINARY_CODES,
     FUNCTION_CODES,
@@ -48,6 +48,13 @@ class Place:
         while not place.scope.has(symbol) and place.outer is not None:
             place = place.outer
         return place
+
+    def command(self, symbol: str) -> tuple[Place, str]:
+        """Give the symbol that the turtle takes one of this place for, and the place that it belongs to."""
+        place, command = self, symbol
+        while (equiv := place.scope.equiv(command)) is not None:
+            place, command = place.owner(equiv.command), equiv.command
+        return place, command
 
     def meanings(self, slots: Mapping[str, int]) -> Meanings:
         """Give what names mean here, where these are slots."""
@@ -108,7 +115,7 @@ class Assembler:
         spans = np.array([self.spans[number]], dtype=np.int64)
         ops, args = np.array(self.ops, dtype=np.int64), np.array(self.args, dtype=np.float64)
         slots, stack = np.empty(self.room), np.empty(self.room)
-        value, trouble = _kernels.evaluated(ops, args, spans, 0, slots, np.uint64(0), stack)
+        value, trouble = _expressions.evaluated(ops, args, spans, 0, slots, np.uint64(0), stack)
         return float(value), int(trouble)
 
     def _put(self, expression: Expression, meanings: Meanings, place: Place | None) -> int:
