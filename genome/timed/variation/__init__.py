@@ -5,7 +5,7 @@ production is written by grammatical evolution, in a grammar that is the system'
 """
 
 from genome.timed.variation.alphabet import own_grammar
-from genome.timed.variation.breeder import Breeder
+from genome.timed.variation.breeder import Breeder, load_breeder
 from genome.timed.variation.loading import named_path, shipped_systems, system_text
 from genome.timed.variation.settings import NumberBounds, ProductionRates, TimedGenome
 from genome.timed.variation.structure import bare_productions, differs_in_production, distances, diversity, stochastic
@@ -19,6 +19,7 @@ __all__ = [
     "differs_in_production",
     "distances",
     "diversity",
+    "load_breeder",
     "named_path",
     "own_grammar",
     "shipped_systems",

@@ -16,8 +16,8 @@ from genome.timed.system import BRACKETS, Birth, TimedSystem
 TURNS: Final = "+-^&/\\"
 """Turtle commands whose parameter is an angle."""
 
-HEAD: Final = """# What productions are written in: <Successor.X>, <Module.X> and <Condition.X> those of a symbol X, <Successor>,
-# <Module> and <Condition> those of every other. docs/timed-evolution.md says more.
+HEAD: Final = """# What productions are written in: <Successor.X>, <Module.X>, <Condition.X> for productions of X; those
+# without a symbol would be for every other. docs/timed-evolution.md says more.
 """
 
 _MARKS: Final = {
@@ -27,8 +27,8 @@ _MARKS: Final = {
 
 
 def spelt(symbol: str) -> str:
-    """Give a symbol as names of non-terminals have it: letters for marks."""
-    return _MARKS.get(symbol, symbol)
+    """Give a symbol as names of non-terminals have it: marks as no name can be, such as ``-plus``."""
+    return f"-{_MARKS[symbol]}" if symbol in _MARKS else symbol
 
 
 def own_grammar(system: TimedSystem, symbols: Sequence[str]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from genome.bnf import parse_bnf
 from genome.errors import InputError
+from genome.grammar import Grammar
 from genome.settings import near
 from genome.timed.checks import check_system
 from genome.timed.genotype import SEEDS, TimedGenotype
@@ -33,6 +34,11 @@ NOTHING: Final = "<Nothing> ::= nothing\n"
 """The grammar of an island on which no production varies."""
 
 
+def bare_key(*keys: str) -> str:
+    """Give a key of no island."""
+    return ".".join(keys)
+
+
 @final
 class Breeder:
     """Breeds the variants of one file.
@@ -41,42 +47,48 @@ class Breeder:
     ----------
     settings
         What varies, and how much.
-    base
-        The folder from which paths start.
+    system
+        What all begin with.
     where
         Gives the place of a key of the island, for messages.
+    grammar
+        What productions are written in; without, the system's own.
 
     Attributes
     ----------
     system
-        The file's.
+        As given.
     symbols
-        Those whose productions vary, in the file's order.
+        Those whose productions vary, in the system's order.
     grammar
-        The text of the system's own grammar; empty where the settings name one, or nothing varies.
+        The text of the system's own grammar; empty where one was given, or nothing varies.
 
     Raises
     ------
     InputError
-        With the key of the island, for a file that is missing or malformed, a define or a symbol that the file has
-        not, and a grammar that writes what the language does not take.
+        With the key of the island, for a define or a symbol that the system has not, and a grammar that writes what the
+        language does not take.
     """
 
-    def __init__(self, settings: TimedGenome, base: Path, where: Where) -> None:
+    def __init__(
+        self, settings: TimedGenome, system: TimedSystem, where: Where = bare_key, grammar: Grammar | None = None
+    ) -> None:
         self._settings: Final = settings
-        self.system: Final = load_system(settings.system, base, where)
-        _check_defines(settings, self.system, where)
-        self.symbols: Final = _varying(settings, self.system, where)
-        self.grammar: Final = own_grammar(self.system, self.symbols) if settings.grammar is None else ""
-        self._writer: Final = self._writing(base, where)
-        self._numbers: Final = Numbers(
-            self.system, _define_bounds(settings), settings.literals, self.symbols.__contains__
-        )
-        self._stillborn: Final = stillborn(self.system)
-        words = [one.successor for one in self.system.productions]
+        self.system: Final = system
+        _check_defines(settings, system, where)
+        self.symbols: Final = _varying(settings, system, where)
+        self.grammar: Final = own_grammar(system, self.symbols) if grammar is None else ""
+        made = parse_bnf(self.grammar or NOTHING, "own.bnf") if grammar is None else grammar
+        self._writer: Final = Writer(made, system, settings.genes, settings.grammar_depth)
+        if grammar is not None:
+            probe(self._writer, system, self.symbols, where("genome", "grammar"))
+        bounds = {name: Bounds(*one.bounds, one.whole) for name, one in settings.numbers.items()}
+        self._numbers: Final = Numbers(system, bounds, settings.literals, self.symbols.__contains__)
+        self._stillborn: Final = stillborn(system)
+        words = [one.successor for one in system.productions]
         self._longest: Final = max([settings.max_modules, *map(len, words)])
         self._deepest: Final = max([settings.max_depth, *map(depth, words)])
-        self._most: Final = max(settings.max_productions, len(self.system.productions))
+        self._most: Final = max(settings.max_productions, len(words))
 
     def random(self, rng: np.random.Generator) -> TimedGenotype:
         """Draw a genotype: the file's system, its numbers drawn within their bounds, some successors written anew."""
@@ -159,25 +171,31 @@ class Breeder:
         found = None if new is None else with_productions(system, at, new)
         return found if found is not None and self.may_be(found) else None
 
-    def _writing(self, base: Path, where: Where) -> Writer:
-        """Make what writes by the grammar; one that is named is tried out."""
-        settings = self._settings
-        if settings.grammar is None:
-            grammar = parse_bnf(self.grammar or NOTHING, "own.bnf")
-        else:
-            grammar = load_grammar(settings.grammar, base, where)
-        writer = Writer(grammar, self.system, settings.genes, settings.grammar_depth)
-        if settings.grammar is not None:
-            probe(writer, self.system, self.symbols, where("genome", "grammar"))
-        return writer
+
+def load_breeder(settings: TimedGenome, base: Path, where: Where) -> Breeder:
+    """Read the files that settings name, and make the breeder.
+
+    Parameters
+    ----------
+    settings
+        Of the island.
+    base
+        The folder from which paths start.
+    where
+        Gives the place of a key of the island, for messages.
+
+    Raises
+    ------
+    InputError
+        With the key of the island, for a file that is missing or malformed, and as of :class:`Breeder`.
+    """
+    system = load_system(settings.system, base, where)
+    grammar = None if settings.grammar is None else load_grammar(settings.grammar, base, where)
+    return Breeder(settings, system, where, grammar)
 
 
 def _seed(rng: np.random.Generator) -> int:
     return int(rng.integers(0, SEEDS, dtype=np.uint64))
-
-
-def _define_bounds(settings: TimedGenome) -> dict[str, Bounds]:
-    return {name: Bounds(*one.bounds, one.whole) for name, one in settings.numbers.items()}
 
 
 def _check_defines(settings: TimedGenome, system: TimedSystem, where: Where) -> None:

@@ -41,7 +41,8 @@ class Writer:
     ----------
     grammar
         Its ``<Successor.X>``, ``<Module.X>`` and ``<Condition.X>`` are for productions of X, those without a symbol
-        for every one that has none of its own. Names of parameters are those of the symbol's first production in ``system``.
+        for every one that has none of its own. Names of parameters are those of the symbol's first production in
+        ``system``.
     system
         The file's.
     genes
