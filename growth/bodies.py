@@ -87,14 +87,19 @@ def _side_keys(face: NDArray[np.int64], a: NDArray[np.int64], b: NDArray[np.int6
 
 def solid_body(vertices: Floats, triangles: NDArray[np.int32], colour: Colour, line: float) -> Bodies:
     """Give a boundary's outline: round where its faces turn gently, lines where they crease."""
+    once, vertex = np.unique(vertices, axis=0, return_inverse=True)
+    shared = vertex.reshape(-1)[triangles].astype(np.int32)
+    return smooth_body(once, shared, np.tile(colour, (len(triangles), 1)), line)
+
+
+def smooth_body(vertices: Floats, triangles: NDArray[np.int32], colours: Floats, line: float) -> Bodies:
+    """Give triangles that share vertices (v, 3), in colours (t, 3): round where they turn gently, lines at creases."""
     corners = vertices[triangles]
     flat = newell_normals(corners)
     unit = _unit(flat)
-    _, vertex = np.unique(vertices, axis=0, return_inverse=True)
-    vertex = vertex.reshape(-1)[triangles]
-    normals = _rounded(vertex.reshape(-1), np.repeat(flat, 3, axis=0), np.repeat(unit, 3, axis=0))
-    lines = np.where(_creased(vertex.astype(np.int64), unit), line, 0.0)
-    return _coloured(corners, normals.reshape(-1, 3, 3), colour, colour, lines)
+    normals = _rounded(triangles.reshape(-1).astype(np.int64), np.repeat(flat, 3, axis=0), np.repeat(unit, 3, axis=0))
+    lines = np.where(_creased(triangles.astype(np.int64), unit), line, 0.0)
+    return Bodies(corners, normals.reshape(-1, 3, 3), colours, colours, lines)
 
 
 def _rounded(vertex: NDArray[np.int64], weighted: Floats, unit: Floats) -> Floats:
@@ -123,11 +128,6 @@ def _creased(triangles: NDArray[np.int64], unit: Floats) -> NDArray[np.bool_]:
     np.add.at(total, edge, unit[face])
     sharp = np.linalg.norm(total, axis=1) < 2.0 * np.sqrt(0.5 * (1.0 + CREASE))
     return np.asarray(sharp[edge].reshape(-1, 3))
-
-
-def _coloured(corners: Floats, normals: Floats, front: Colour, back: Colour, lines: Floats) -> Bodies:
-    count = len(corners)
-    return Bodies(corners, normals, np.tile(front, (count, 1)), np.tile(back, (count, 1)), lines)
 
 
 def _unit(vectors: Floats) -> Floats:

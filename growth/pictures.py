@@ -107,11 +107,43 @@ def render(
     InputError
         When there is no face to draw, or a coordinate is not finite.
     """
-    from PIL import Image
-
     forms = [surfaces] if isinstance(surfaces, Surface) else list(surfaces)
     stage = _staged(_shown(forms, colours), glass, environment, size, azimuth, elevation)
-    width, height = size
+    return _image(stage, samples)
+
+
+def render_bodies(
+    bodies: Bodies,
+    size: tuple[int, int] = (1000, 750),
+    *,
+    azimuth: float = -62.0,
+    elevation: float = 27.0,
+    samples: int = 2,
+    window: Floats | None = None,
+) -> Image:
+    """Draw triangles that have their shading and colours.
+
+    Parameters
+    ----------
+    bodies
+        What to draw; finite, and one triangle at least.
+    size, azimuth, elevation, samples
+        As of :func:`render`.
+    window
+        (2, 3) float64, the lowest and highest coordinates of what the camera frames, and of what stands on the ground;
+        of the bodies where not given. Pictures with the same window have the same camera and ground.
+
+    Returns
+    -------
+    An RGB image; the same input gives the same picture.
+    """
+    return _image(_staged(bodies, (), None, size, azimuth, elevation, window), samples)
+
+
+def _image(stage: _Stage, samples: int) -> Image:
+    from PIL import Image
+
+    width, height = stage.camera.size
     rows = [_band(stage, top, min(top + BAND, height), samples) for top in range(0, height, BAND)]
     linear = np.concatenate(rows).reshape(height, samples, width, samples, 3).mean(axis=(1, 3))
     return Image.fromarray((255.0 * _encoded(linear) + 0.5).astype(np.uint8), "RGB")
@@ -160,19 +192,21 @@ def _staged(
     size: tuple[int, int],
     azimuth: float,
     elevation: float,
+    window: Floats | None = None,
 ) -> _Stage:
-    places = shown.corners.reshape(-1, 3)
+    places = shown.corners.reshape(-1, 3) if window is None else _box(window)
     extent = max(float(np.linalg.norm(np.ptp(places, axis=0))), 1e-9)
     solids, glass, level = _surroundings(environment, places, extent)
     glass += [solid_body(*triangulate(pane), GLASS, 0.5) for pane in panes]
     bodies = joined([shown, *solids])
-    near = [part.corners.reshape(-1, 3) for part in [shown, *solids, *glass]]
+    near = [places, *(part.corners.reshape(-1, 3) for part in [*solids, *glass])]
     near = [part for part in near if np.linalg.norm(np.ptp(np.concatenate([places, part]), axis=0)) < 4.0 * extent]
     camera = looking_at(np.concatenate(near), size, azimuth, elevation)
     suns = sun_towards(azimuth - 58.0, 48.0)
     rays = Rays(bodies.corners)
     if level is None:
-        low, high = float(bodies.corners[..., 2].min()), float(bodies.corners[..., 2].max())
+        high_and_low = np.concatenate([places[:, 2], *(part.corners[..., 2].reshape(-1) for part in solids)])
+        low, high = float(high_and_low.min()), float(high_and_low.max())
         # A flat form floats: its shadow would be thinner than the ground's tables can tell.
         level = low - max(0.003 * extent, 0.05 * extent - 0.5 * (high - low))
     glazing = joined(glass)
@@ -188,6 +222,12 @@ def _staged(
         Rays(glazing.corners),
         environment,
     )
+
+
+def _box(window: Floats) -> Floats:
+    """Give the corners (8, 3) of the box between the lowest and highest coordinates (2, 3)."""
+    which = np.stack(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
+    return np.take_along_axis(np.asarray(window, dtype=np.float64), which, axis=0)
 
 
 def _surroundings(

@@ -62,7 +62,7 @@ def check(path: Path, overrides: Sequence[str] = ()) -> tuple[str, tuple[str, ..
         if path.name.endswith(suffix):
             if overrides:
                 raise InputError("--set", "an experiment to set something in", str(path))
-            return reads(path), ()
+            return reads(path), _ignored(path) if suffix == ".tl" else ()
     if path.suffix in (".yaml", ".yml"):
         if _is_environment(path):
             from growth.environment import load_environment
@@ -103,6 +103,16 @@ def _timed(path: Path) -> str:
 
     compile_system(parse_tl(read_text(path, "a rule file"), str(path)))
     return "rules"
+
+
+def _ignored(path: Path) -> tuple[str, ...]:
+    """Give a note where the turtle passes over symbols of a timed system."""
+    from genome.timed import parse_tl
+    from growth.timed.turtle import unknown_symbols
+
+    symbols = unknown_symbols(parse_tl(read_text(path, "a rule file"), str(path)))
+    told = f"{path}: the turtle draws nothing for {', '.join(symbols)}; such a symbol needs an equiv, or a production"
+    return (told,) if symbols else ()
 
 
 def _body(path: Path) -> str:

@@ -31,6 +31,7 @@ def grow_timed(request: Request) -> dict[str, Any] | str:
     from genome.timed import parse_tl
     from growth.protocol import Failure
     from growth.timed import compile_system, derive
+    from growth.timed.turtle import unknown_symbols
 
     until = _time(request)
     system, growth = _settings(request, parse_tl(read_text(request.file, "a rule file"), str(request.file)))
@@ -39,6 +40,8 @@ def grow_timed(request: Request) -> dict[str, Any] | str:
     if isinstance(word, Failure):
         return f"{request.file} did not grow: {word}"
     told: dict[str, Any] = {"modules": len(word), "time": until, **_form(request, word)}
+    if ignored := unknown_symbols(system):
+        told["ignored"] = list(ignored)
     if request.word:
         told["word"] = [[module.symbol, list(module.parameters), module.age] for module in word.modules()]
     return told

@@ -17,7 +17,18 @@ from genome.timed.expression import (
 )
 from genome.timed.reading import parse_expression
 from genome.timed.scope import Scope
-from genome.timed.system import Birth, Define, Development, Equiv, Formal, Module, Production, TimedSystem
+from genome.timed.system import (
+    Birth,
+    Define,
+    Development,
+    Equiv,
+    Formal,
+    Module,
+    Production,
+    Section,
+    Sheet,
+    TimedSystem,
+)
 from genome.timed.text import format_tl, parse_tl
 
 __all__ = [
@@ -34,6 +45,8 @@ __all__ = [
     "Number",
     "Production",
     "Scope",
+    "Section",
+    "Sheet",
     "TimedSystem",
     "Unary",
     "check_system",

@@ -7,6 +7,7 @@ from typing import Final
 
 from genome.errors import InputError
 from genome.settings import near
+from genome.timed.commands import TURTLE
 from genome.timed.expression import (
     CONSTANTS,
     DEVELOPMENT,
@@ -22,7 +23,7 @@ from genome.timed.expression import (
 )
 from genome.timed.reading import COMMANDS, counted
 from genome.timed.scope import Scope
-from genome.timed.system import BRACKETS, CLOSE, OPEN, RESERVED, Birth, Development, Production, TimedSystem
+from genome.timed.system import BRACKETS, CLOSE, OPEN, RESERVED, Birth, Development, Production, Section, TimedSystem
 
 MOST_NESTED: Final = 10
 """How deep development functions may call each other."""
@@ -54,6 +55,7 @@ class _Checks:
     def run(self) -> None:
         self._defines()
         self._symbols()
+        self._figures()
         self._formals(self.system.parameters, self.system.at)
         self._word(self.system.axiom, self.system.parameters)
         for production in self.system.productions:
@@ -72,15 +74,33 @@ class _Checks:
                 raise self._error(define.at, "a name that has no meaning yet", f"'{define.name}'")
             if define.name in own:
                 raise self._error(define.at, f"'{define.name}' defined once", "a second define", "remove one")
-            for part in parts(define.value):
-                if isinstance(part, Call) and part.function.startswith(DEVELOPMENT):
-                    raise self._error(part.at, "a constant expression", f"'{part.function}'")
-            if draws(define.value):
-                remedy = "draw where it is used: every module then draws its own"
-                raise self._error(define.at, "a constant expression", "one that draws at random", remedy)
+            remedy = "draw where it is used: every module then draws its own"
+            self._determined(define.value, define.at, "a constant expression", remedy)
             self._names(define.value, ())
             own.append(define.name)
             self.defines.append(define.name)
+
+    def _determined(self, expression: Expression, at: Place, expected: str, remedy: str = "") -> None:
+        """Refuse what draws at random or calls development functions."""
+        for part in parts(expression):
+            if isinstance(part, Call) and part.function.startswith(DEVELOPMENT):
+                raise self._error(part.at, expected, f"'{part.function}'")
+        if draws(expression):
+            raise self._error(at, expected, "one that draws at random", remedy)
+
+    def _figures(self) -> None:
+        """Check sections and surfaces, whose names are modules."""
+        seen: list[str] = []
+        for figure in self.system.figures:
+            inside, equiv = self.scope.inside(figure.symbol), self.scope.equiv(figure.symbol)
+            if figure.symbol in TURTLE or figure.symbol in seen or inside is not None or equiv is not None:
+                expected = "a name that means nothing else to the turtle"
+                raise self._error(figure.at, expected, f"'{figure.symbol}'", "choose another")
+            seen.append(figure.symbol)
+            self._formals(figure.names, figure.at)
+            for expression in (figure.radius,) if isinstance(figure, Section) else figure.place:
+                self._determined(expression, figure.at, "an expression of these names and of defines")
+                self._names(expression, figure.names)
 
     def _symbols(self) -> None:
         """Check that no symbol has two meanings."""

@@ -18,6 +18,8 @@ from genome.timed.statements import (
     read_formals,
     read_ignored,
     read_production,
+    read_section,
+    read_surface,
 )
 from genome.timed.system import TimedSystem
 from genome.timed.text import MOST_INSIDE
@@ -28,6 +30,8 @@ from genome.timed.writing import (
     written_equiv,
     written_formals,
     written_production,
+    written_section,
+    written_surface,
     written_word,
 )
 
@@ -35,7 +39,7 @@ FORMAT: Final = 1
 """The version of this encoding."""
 
 _KEYS: Final = ("name", "parameters", "radians", "defines", "equivs", "ignored", "axiom", "productions", "developments",
-                "systems")  # fmt: skip
+                "systems", "sections", "surfaces")  # fmt: skip
 
 T = TypeVar("T")
 
@@ -81,6 +85,8 @@ def _plain(system: TimedSystem) -> dict[str, Any]:
         "productions": [written_production(one) for one in system.productions],
         "developments": [written_development(one).removeprefix("g ") for one in system.developments],
         "systems": [_plain(one) for one in system.systems],
+        "sections": [written_section(one).removeprefix("section ") for one in system.sections],
+        "surfaces": [written_surface(one).removeprefix("surface ") for one in system.surfaces],
     }
     if system.ignored:
         data["ignored"] = " ".join(system.ignored)
@@ -110,6 +116,8 @@ def _system(data: object, where: str, depth: int) -> TimedSystem:
         equivs=_lines(data, "equivs", where, read_equiv),
         ignored=_line(data["ignored"], f"{where}: ignored", read_ignored) if "ignored" in data else (),
         systems=tuple(_system(one, f"{where}: systems", depth + 1) for one in inner),
+        sections=_lines(data, "sections", where, read_section),
+        surfaces=_lines(data, "surfaces", where, read_surface),
         radians=radians,
         name=name,
         parameters=_line(data["parameters"], f"{where}: parameters", read_formals) if "parameters" in data else (),

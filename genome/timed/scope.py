@@ -1,7 +1,7 @@
 """What symbols and names mean where systems stand inside each other.
 
-A symbol belongs to the innermost system around it that has a production, a development function, an equiv or a system
-for it, and to the outermost where none has. Defines are seen from inside.
+A symbol belongs to the innermost system around it that has a production, a development function, an equiv, a section, a
+surface or a system for it, and to the outermost where none has. Defines are seen from inside.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import final
 
 from genome.errors import InputError
-from genome.timed.system import RESERVED, Development, Production, TimedSystem
+from genome.timed.system import RESERVED, Development, Equiv, Production, TimedSystem
 
 
 @final
@@ -36,6 +36,7 @@ class Scope:
             or any(development.symbol == symbol for development in system.developments)
             or any(equiv.symbol == symbol for equiv in system.equivs)
             or any(inner.name == symbol for inner in system.systems)
+            or any(figure.symbol == symbol for figure in system.figures)
         )
 
     def productions(self, symbol: str) -> tuple[Production, ...]:
@@ -61,6 +62,10 @@ class Scope:
         named = 0 if development is None else sum(name not in RESERVED for name in development.names)
         return named or None
 
+    def equiv(self, symbol: str) -> Equiv | None:
+        """Give this system's equiv of a symbol."""
+        return next((one for one in self.system.equivs if one.symbol == symbol), None)
+
     def command(self, symbol: str) -> str:
         """Give the symbol that the turtle takes one of this system for.
 
@@ -72,7 +77,7 @@ class Scope:
         seen = [symbol]
         scope = self
         while True:
-            equiv = next((one for one in scope.system.equivs if one.symbol == seen[-1]), None)
+            equiv = scope.equiv(seen[-1])
             if equiv is None:
                 return seen[-1]
             if equiv.command in seen:

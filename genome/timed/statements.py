@@ -4,7 +4,18 @@ from __future__ import annotations
 
 from genome.timed.expression import ONE, ZERO, Expression
 from genome.timed.reading import Reader
-from genome.timed.system import BRACKETS, MARKS, Birth, Define, Development, Equiv, Formal, Production
+from genome.timed.system import (
+    BRACKETS,
+    MARKS,
+    Birth,
+    Define,
+    Development,
+    Equiv,
+    Formal,
+    Production,
+    Section,
+    Sheet,
+)
 
 _DOUBLES = ("&&", "||")
 """Pieces of expressions that are two symbols in a word."""
@@ -38,6 +49,30 @@ def read_development(reader: Reader) -> Development:
     names = read_formals(reader)
     reader.expect("=", f"such as 'g {symbol}(age, end) = age/end'")
     return Development(symbol, names, reader.expression(), token.at)
+
+
+def read_section(reader: Reader) -> Section:
+    """Read what follows ``section``: a name, the angle's name in parentheses, ``=`` and an expression."""
+    token = reader.name("the name of a section")
+    names = read_formals(reader)
+    if len(names) != 1:
+        raise reader.error("the name of an angle", f"such as 'section {token.text}(a) = 1 + 0.2*cos(5*a)'", token)
+    reader.expect("=")
+    return Section(token.text, names, reader.expression(), token.at)
+
+
+def read_surface(reader: Reader) -> Sheet:
+    """Read what follows ``surface``: a name, two names in parentheses, ``=`` and three expressions."""
+    token = reader.name("the name of a surface")
+    names = read_formals(reader)
+    if len(names) != 2:
+        raise reader.error("two names", f"such as 'surface {token.text}(u, v) = u, v - 0.5, u*u'", token)
+    reader.expect("=")
+    place = [reader.expression()]
+    while len(place) < 3:
+        reader.expect(",", "a surface has three expressions: along heading, left and up")
+        place.append(reader.expression())
+    return Sheet(token.text, names, tuple(place), token.at)
 
 
 def read_formals(reader: Reader) -> tuple[str, ...]:

@@ -138,6 +138,52 @@ class Equiv:
 
 @final
 @dataclass(frozen=True, slots=True)
+class Section:
+    """A cross-section of generalised cylinders (section 4.1).
+
+    Attributes
+    ----------
+    symbol
+        The module that chooses it.
+    names
+        One: the angle, from 0 to 2 pi, from the turtle's left to its up.
+    radius
+        The polar radius at each angle, as a multiple of the turtle's radius; over 0.
+    at
+        Line and column in the file.
+    """
+
+    symbol: str
+    names: tuple[str, ...]
+    radius: Expression
+    at: Place = field(default=NOWHERE, compare=False, repr=False)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A surface that the turtle can draw, and mix with others.
+
+    Attributes
+    ----------
+    symbol
+        The module that gives it weight.
+    names
+        Two, each from 0 to 1.
+    place
+        Three: where it is along the turtle's heading, left and up.
+    at
+        Line and column in the file.
+    """
+
+    symbol: str
+    names: tuple[str, ...]
+    place: tuple[Expression, ...]
+    at: Place = field(default=NOWHERE, compare=False, repr=False)
+
+
+@final
+@dataclass(frozen=True, slots=True)
 class TimedSystem:
     """A timed, parametric L-system, or one inside another.
 
@@ -147,7 +193,7 @@ class TimedSystem:
         The word at time 0; never empty.
     productions
         In the order written, in which they are asked.
-    developments, defines, equivs
+    developments, defines, equivs, sections, surfaces
         In the order written.
     ignored
         Symbols that contexts look past; brackets are never contexts.
@@ -173,8 +219,15 @@ class TimedSystem:
     radians: bool = False
     name: str = ""
     parameters: tuple[str, ...] = ()
+    sections: tuple[Section, ...] = ()
+    surfaces: tuple[Sheet, ...] = ()
     source: str = field(default="system", compare=False, repr=False)
     at: Place = field(default=NOWHERE, compare=False, repr=False)
+
+    @property
+    def figures(self) -> tuple[Section | Sheet, ...]:
+        """The sections, then the surfaces."""
+        return (*self.sections, *self.surfaces)
 
     def complaint_place(self, at: Place) -> str:
         """Give a place as messages have it; the file alone for what was not read from one."""

@@ -29,6 +29,8 @@ from genome.timed.statements import (
     read_formals,
     read_ignored,
     read_production,
+    read_section,
+    read_surface,
 )
 from genome.timed.system import TimedSystem
 from genome.timed.tokens import Token, lines
@@ -91,11 +93,11 @@ class _Block:
             elif first.text in ("system", "axiom", "angles", "ignore") and first.kind == "name":
                 reader.take()
                 self._statement(first, reader, rows)
-            elif first.text in ("#define", "equiv", "g"):
+            elif first.text in ("#define", "equiv", "g", "section", "surface"):
                 reader.take()
                 self._listed(first, reader)
             else:
-                expected = "a production with '->', or a line that begins with axiom, #define, equiv, g, system, ..."
+                expected = "a production with '->', or a line that begins with axiom, #define, equiv, g, section, ..."
                 raise reader.error(expected, token=first)
             if reader.next.kind != "end":
                 raise reader.error("the end of the line")
@@ -129,6 +131,10 @@ class _Block:
             self._add("defines", read_define(reader))
         elif first.text == "equiv":
             self._add("equivs", read_equiv(reader))
+        elif first.text == "section":
+            self._add("sections", read_section(reader))
+        elif first.text == "surface":
+            self._add("surfaces", read_surface(reader))
         else:
             self._add("developments", read_development(reader))
 

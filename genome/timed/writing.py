@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from genome.timed.expression import ONE, ZERO, Call, Expression, Name, Number, format_expression
-from genome.timed.system import BRACKETS, Birth, Define, Development, Equiv, Formal, Production, TimedSystem
+from genome.timed.system import (
+    BRACKETS,
+    Birth,
+    Define,
+    Development,
+    Equiv,
+    Formal,
+    Production,
+    Section,
+    Sheet,
+    TimedSystem,
+)
 
 
 def written(system: TimedSystem) -> Iterator[str]:
@@ -14,6 +25,8 @@ def written(system: TimedSystem) -> Iterator[str]:
         yield "angles radians"
     yield from map(written_define, system.defines)
     yield from map(written_equiv, system.equivs)
+    yield from map(written_section, system.sections)
+    yield from map(written_surface, system.surfaces)
     if system.ignored:
         yield f"ignore {' '.join(system.ignored)}"
     yield f"axiom {written_word(system.axiom)}"
@@ -40,6 +53,17 @@ def written_development(development: Development) -> str:
     """Write a development function."""
     head = f"{development.symbol}{written_formals(development.names)}"
     return f"g {head} = {format_expression(development.body)}"
+
+
+def written_section(section: Section) -> str:
+    """Write a cross-section."""
+    return f"section {section.symbol}{written_formals(section.names)} = {format_expression(section.radius)}"
+
+
+def written_surface(sheet: Sheet) -> str:
+    """Write a surface."""
+    place = ", ".join(map(format_expression, sheet.place))
+    return f"surface {sheet.symbol}{written_formals(sheet.names)} = {place}"
 
 
 def written_production(production: Production) -> str:

@@ -245,6 +245,27 @@ def evaluated(ops: Ints, args: Floats, spans: Ints, expression: int, slots: Floa
     return stack[top], 0
 
 
+@njit(cache=True)
+def sampled(ops: Ints, args: Floats, spans: Ints, expression: int, given: Floats, room: int) -> tuple[Floats, int, int]:
+    """Evaluate an expression that draws nothing for each of n rows of values of its slots, (n, k).
+
+    Returns
+    -------
+    values
+        (n,) float64.
+    trouble, at
+        0 and 0, or what is wrong and with which row; values behind it are not written.
+    """
+    values, slots, stack = np.zeros(given.shape[0]), np.empty(room), np.empty(room)
+    for at in range(given.shape[0]):
+        slots[: given.shape[1]] = given[at]
+        value, trouble = evaluated(ops, args, spans, expression, slots, np.uint64(0), stack)
+        if trouble or abs(value) == math.inf:
+            return values, trouble or NOT_FINITE, at
+        values[at] = value
+    return values, 0, 0
+
+
 @_lent
 def lasted(ops: Ints, args: Floats, spans: Ints, known: Floats, end: int, given: Floats, key: np.uint64,
            slots: Floats, stack: Floats) -> tuple[float, int]:  # fmt: skip

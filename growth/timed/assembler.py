@@ -49,6 +49,13 @@ class Place:
             place = place.outer
         return place
 
+    def command(self, symbol: str) -> tuple[Place, str]:
+        """Give the symbol that the turtle takes one of this place for, and the place that it belongs to."""
+        place, command = self, symbol
+        while (equiv := place.scope.equiv(command)) is not None:
+            place, command = place.owner(equiv.command), equiv.command
+        return place, command
+
     def meanings(self, slots: Mapping[str, int]) -> Meanings:
         """Give what names mean here, where these are slots."""
         return {**CONSTANTS, **self.defines, **slots}

@@ -105,7 +105,7 @@ class Derivation:
             return Failure("expression", f"{TROUBLES[trouble]}, in {role} at time {self.time:.9g}")
         codes, starts = state.whole[:, CODE].copy(), np.append(state.whole[:, START], len(values))
         return Word(self.time, program.names, program.commands, codes, starts, values, ages, factors,
-                    program.radians, state.whole[:, KEY].copy())  # fmt: skip
+                    program.radians, state.whole[:, KEY].copy(), program.figures)  # fmt: skip
 
 
 def begin(system: TimedSystem, seed: int = 0, budget: TimedGrowth | None = None) -> Derivation | Failure:

@@ -14,7 +14,9 @@ from genome.timed import Birth, Formal, Production, Scope, TimedSystem
 from genome.timed.expression import ZERO, draws
 from genome.timed.system import AGE, BRACKETS, TERMINAL
 from growth.timed.assembler import Assembler, Meanings, Place
+from growth.timed.figures import Figures
 from growth.timed.tables import NONE, OPEN_CODE, START_CODE, TROUBLES, Ints, Tables
+from growth.timed.tabulating import Tabulator
 
 START: Final = "axiom"
 """What messages call that which the axiom comes from."""
@@ -37,6 +39,8 @@ class Program:
         Whether a production asks for contexts: then instants are rewritten one after the other.
     radians
         Whether turns are in radians.
+    figures
+        Cross-sections and surfaces.
     """
 
     tables: Tables
@@ -44,6 +48,7 @@ class Program:
     commands: tuple[str, ...]
     contextual: bool
     radians: bool
+    figures: Figures
 
 
 class _Rule(NamedTuple):
@@ -85,7 +90,7 @@ def compile_system(system: TimedSystem) -> Program:
     Raises
     ------
     InputError
-        When a define has no value, or the system is too large.
+        When a define has no value, a section a radius of 0 or less, a surface no place, or the system is too large.
     """
     return _Compiler(system).program()
 
@@ -104,6 +109,7 @@ class _Compiler:
         self.births: list[_Born] = []
         self.symbols: list[_Symbol] = []
         self.ignored: dict[int, bool] = {}
+        self.figures = Tabulator()
 
     def program(self) -> Program:
         outermost = self._inside(Scope(self.system), None)
@@ -111,6 +117,7 @@ class _Compiler:
             self._code(outermost, bracket)
         self.names.append(START)
         self.commands.append(START)
+        self.figures.choose(None, START)
         self.waiting.append((outermost, START))
         assert self.names.index("[") == OPEN_CODE
         assert len(self.names) == START_CODE + 1
@@ -121,7 +128,8 @@ class _Compiler:
             self.symbols.append(self._symbol(*self.waiting[code], started=code != START_CODE))
         rules = [rule for symbol in self.symbols for rule in symbol.rules]
         contextual = any(rule.left != NONE or rule.right != NONE for rule in rules)
-        return Program(self._tables(rules), tuple(self.names), tuple(self.commands), contextual, self.system.radians)
+        names, commands, figures = tuple(self.names), tuple(self.commands), self.figures.figures()
+        return Program(self._tables(rules), names, commands, contextual, self.system.radians, figures)
 
     def _inside(self, scope: Scope, outer: Place | None) -> Place:
         """Give the place of a system, its defines evaluated."""
@@ -133,6 +141,7 @@ class _Compiler:
                 got = TROUBLES.get(trouble, "a value that is not finite")
                 raise InputError(scope.system.complaint_place(define.at), f"a value of {define.name}", got)
             defines[define.name] = value
+        self.figures.add(place)
         return place
 
     def _ignore(self, place: Place) -> None:
@@ -146,7 +155,9 @@ class _Compiler:
         if key not in self.codes:
             self.codes[key] = len(self.names)
             self.names.append(symbol)
-            self.commands.append(owner.scope.command(symbol))
+            holder, command = owner.command(symbol)
+            self.commands.append(command)
+            self.figures.choose(holder, command)
             self.waiting.append((owner, symbol))
         return self.codes[key]
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import final
 
 from genome.timed import Module
+from growth.timed.figures import NO_FIGURES, Figures
 from growth.timed.tables import Floats, Ints
 
 
@@ -37,6 +38,8 @@ class Word:
     lineages
         (m,) int64, who a module is: equal at all times at which it lives, of no other module (but by a chance of
         2**-64).
+    figures
+        Cross-sections and surfaces that the system's file has.
     """
 
     time: float
@@ -49,6 +52,7 @@ class Word:
     factors: Floats
     radians: bool
     lineages: Ints
+    figures: Figures = NO_FIGURES
 
     def __len__(self) -> int:
         return len(self.codes)

@@ -16,6 +16,8 @@ from genome.timed import (
     Name,
     Number,
     Production,
+    Section,
+    Sheet,
     TimedSystem,
     Unary,
 )
@@ -120,5 +122,7 @@ def written_systems(draw: st.DrawFn) -> TimedSystem:
     )
     axiom = (*system.axiom, Birth("part", (draw(expressions(("L",))),), Name("K")))
     equivs = (Equiv("f", "A"), Equiv("\\", "C"))
+    sections = (Section("round", ("a",), draw(expressions(("a", "K"), DETERMINED, SMALL))),)
+    surfaces = (Sheet("leaf", ("u", "v"), tuple(draw(expressions(("u", "v"), numbers=SMALL)) for _ in range(3))),)
     return TimedSystem(axiom, system.productions, system.developments, defines, equivs, system.ignored, (inner,),
-                       draw(st.booleans()))  # fmt: skip
+                       draw(st.booleans()), sections=sections, surfaces=surfaces)  # fmt: skip

@@ -20,6 +20,8 @@ from genome.timed import (
     Name,
     Number,
     Production,
+    Section,
+    Sheet,
     TimedSystem,
     Unary,
     decode,
@@ -36,6 +38,8 @@ FILE = """# Everything that a file may have.
 angles radians
 equiv f mov
 equiv \\ roll
+section bar(a) = 1 + cos(a)/3
+surface leaf(u, v) = u, v*K, 3
 ignore + -
 axiom: A(1) @ 0.5 [ -(L) B ] && part(K)
 A(j) @ 3.0 : j < 2 -> B @ 0 A(j*2) @ K/2 -(3) +(1)/(2)
@@ -93,6 +97,10 @@ def test_a_file_becomes_the_system_that_it_says() -> None:
                 name="part", parameters=("n",),
             ),
         ),
+        sections=(
+            Section("bar", ("a",), Binary("+", Number(1.0), Binary("/", Call("cos", (Name("a"),)), three))),
+        ),
+        surfaces=(Sheet("leaf", ("u", "v"), (Name("u"), Binary("*", Name("v"), k), three)),),
         radians=True,
     )  # fmt: skip
 
@@ -166,7 +174,7 @@ def test_an_operator_behind_a_birth_age_is_a_symbol_where_a_blank_stands_before_
         ("", "x.tl: expected a line 'axiom ...', got none; add one, such as 'axiom A(1) @ 0'"),
         ("axiom", "x.tl:1:6: expected a module, got the end of the line"),
         ("axiom A\naxiom A", "x.tl:2:1: expected 'axiom' once, got 'axiom'; remove the second"),
-        ("A B", "x.tl:1:1: expected a production with '->', or a line that begins with axiom, #define, equiv, g, sy"),
+        ("A B", "x.tl:1:1: expected a production with '->', or a line that begins with axiom, #define, equiv, g, se"),
         ("axiom A ?", "x.tl:1:9: expected a symbol, a name, a number or an operator, got '?'"),
         ("axiom A(1", "x.tl:1:10: expected ',', got the end of the line"),
         ("axiom A 3", "x.tl:1:9: expected a symbol: a name or one of + - ^ & / \\ [ ] ! | $ { } ~ ', got '3'"),
@@ -223,6 +231,19 @@ def test_an_operator_behind_a_birth_age_is_a_symbol_where_a_blank_stands_before_
         ("axiom A\nsystem A\naxiom C\nend\nA -> B", "x.tl:2:8: expected neither productions nor a development funct"),
         ("axiom A\nsystem B(n)\naxiom C(n)\nC(x) -> D(n)\nend", "x.tl:4:11: expected a parameter or a define, got 'n'"),
         ("axiom B\nsystem B(n)\naxiom C\nend", "x.tl:1:7: expected 1 parameter of 'B', got 0"),
+        ("axiom A\nsection b = 1", "x.tl:2:9: expected the name of an angle, got 'b'; such as 'section b(a) ="),
+        ("axiom A\nsection b(a, c) = 1", "x.tl:2:9: expected the name of an angle, got 'b'"),
+        ("axiom A\nsection +(a) = 1", "x.tl:2:9: expected the name of a section, got '+'"),
+        ("axiom A\nsection F(a) = 1", "x.tl:2:9: expected a name that means nothing else to the turtle, got 'F'"),
+        ("axiom A\nsection b(a) = 1\nsurface b(u, v) = u, v, 0", "x.tl:3:9: expected a name that means nothing"),
+        ("axiom A\nsection b(a) = c", "x.tl:2:16: expected a parameter or a define, got 'c'"),
+        ("axiom A\nsection b(a) = random(1, 2)", "x.tl:2:9: expected an expression of these names and of defines"),
+        ("axiom A\ng A = 1\nsection b(a) = g_A()", "x.tl:3:16: expected an expression of these names"),
+        ("axiom A\nsection b(pi) = 1", "x.tl:2:9: expected names of parameters that have no meaning yet, got 'pi'"),
+        ("axiom A\nsurface b(u) = u, u, u", "x.tl:2:9: expected two names, got 'b'; such as 'surface b(u, v) ="),
+        ("axiom A\nsurface b(u, v) = u, v", "x.tl:2:23: expected ',', got the end of the line; a surface has three"),
+        ("axiom A\nsurface b(u, v) = u, v, 0, 1", "x.tl:2:26: expected the end of the line, got ','"),
+        ("axiom A\nequiv f b\nsurface b(u, v) = u, v, 0", "x.tl:3:9: expected a name that means nothing else"),
         ("axiom A\nend", "x.tl:2:1: expected a production with '->', or a line that begins with"),
     ],
 )  # fmt: skip

@@ -135,17 +135,20 @@ def test_a_segment_of_the_animal_is_ahead_of_the_one_before() -> None:
     amplitude = 0.378 * math.pi
     left = [amplitude * math.sin(k * math.pi / 2.5) for k in range(5)]
     assert swings[::2] == pytest.approx(left, abs=1e-12)
-    assert swings[1::2] == pytest.approx([-value for value in left], abs=1e-12)
+    # A leg on the right is half a cycle from that on the left, and turns the other way round.
+    assert swings[1::2] == pytest.approx(left, abs=1e-12)
 
 
 def test_a_flower_forks_and_its_heads_pulsate() -> None:
     flower = shipped("flower")
     word = word_at(flower, 30.0)
     names = [module.symbol for module in word]
-    assert (names.count("head"), names.count("petal"), names.count("spike"), names.count("thorn")) == (2, 16, 10, 6)
+    assert (names.count("head"), names.count("petal"), names.count("spike"), names.count("thorn")) == (2, 16, 40, 18)
     heads = [module for module in word if module.symbol == "head"]
     for head in heads:
-        assert head.parameters[0] == pytest.approx(1.1 * 0.94**6 * 0.9**3 * (1.0 - scipy.special.jv(0, 2.2 * head.age)))
+        assert head.parameters[0] == pytest.approx(
+            0.55 * 0.94**6 * 0.9**3 * (1.0 - scipy.special.jv(0, 2.2 * head.age))
+        )
     for petal in (at for at, name in enumerate(names) if name == "petal"):
         assert sum(word[at].parameters[0] for at in range(petal - 3, petal)) == pytest.approx(1.0)
     assert word_at(flower, 30.0, 1) != word
