@@ -9,6 +9,7 @@ NAMES = (
     "growth",
     "blocks_growth",
     "timed_rewriting",
+    "timed_turtle",
     "symbiosis_measures",
     "space_syntax",
     "houses",

@@ -7,8 +7,8 @@ The state is the top row of a pile: a bracket copies it, the closing one takes i
 from __future__ import annotations
 
 import math
+from typing import Any, Final
 
-import numpy as np
 from numba import njit
 
 # isort: off
@@ -16,10 +16,14 @@ from growth.timed.tables import NONE, Floats, Ints
 from growth.timed.turtle.tables import (
     AROUND, BACK, BEGIN, CARRIER, CARRY, CLOSE, COLOUR, Code, DISC, DRAW, FAR, FARTHEST, FEW, FINISH,
     FIRST_POLYGON, FRAME, HUE, IDLE, LEVEL, MANY, MOVER, OPEN, OWN_FRAME, OWN_PLACE, PALETTE, PLACE,
-    RADIUS, RIGHT, ROLL, SECTION, SHADE, SHAPE, SPHERE, SURFACE, TURN, TWIST, Trail, UNBALANCED, WEIGHT,
+    RADIUS, RIGHT, ROLL, SECTION, SHADE, SHAPE, SPHERE, STATE_COLUMNS, SURFACE, TURN, TWIST, Trail, UNBALANCED, WEIGHT,
     WEIGHTS, WIDE,
 )  # fmt: skip
 # isort: on
+
+_OPTIONS: Final[Any] = {"cache": True, "error_model": "numpy", "_nrt": False}
+_lent: Final = njit(**_OPTIONS)
+"""None of them makes an array: to count references to those that they are given takes longer than all else they do."""
 
 PART: int = 0
 SPOT: int = 1
@@ -31,7 +35,7 @@ COUNTERS: int = 6
 """How many parts, sections, corners and tips there are, polygons that are open, and the place of the state."""
 
 
-@njit(cache=True)
+@_lent
 def turned(row: Floats, frame: int, operation: int, cosine: float, sine: float) -> None:
     """Turn the heading to the left, or up, or the left up, and make the directions orthonormal again."""
     first, second = (frame, frame + 3) if operation == TURN else (frame, frame + 6)
@@ -53,7 +57,7 @@ def turned(row: Floats, frame: int, operation: int, cosine: float, sine: float) 
     row[frame + 6], row[frame + 7], row[frame + 8] = hy * lz - hz * ly, hz * lx - hx * lz, hx * ly - hy * lx
 
 
-@njit(cache=True)
+@_lent
 def steered(row: Floats, whole: Ints, operation: int, angle: float) -> None:
     """Carry out an operation that turns, by an angle in radians."""
     if operation == AROUND:
@@ -76,7 +80,7 @@ def steered(row: Floats, whole: Ints, operation: int, angle: float) -> None:
             row[TWIST] += angle
 
 
-@njit(cache=True)
+@_lent
 def part_put(trail: Trail, counts: Ints, at: int, operation: int, row: Floats, x: float, y: float, z: float,
              start: float) -> int:  # fmt: skip
     """Put a part whose x, y and z are the turtle's left, up and heading, so much scaled, from a place ahead of it."""
@@ -94,7 +98,7 @@ def part_put(trail: Trail, counts: Ints, at: int, operation: int, row: Floats, x
     return part
 
 
-@njit(cache=True)
+@_lent
 def spot_put(trail: Trail, counts: Ints, row: Floats, whole: Ints, way: float) -> None:
     """Put a section of the open carrier where the turtle is; its heading is the way in which the turtle moves."""
     spot = counts[SPOT]
@@ -107,7 +111,7 @@ def spot_put(trail: Trail, counts: Ints, row: Floats, whole: Ints, way: float) -
     trail.spots[spot, 7] = row[TWIST]
 
 
-@njit(cache=True)
+@_lent
 def corner_put(trail: Trail, counts: Ints, row: Floats, polygon: int) -> None:
     """Put a corner of a polygon where the turtle is."""
     trail.corners[counts[CORNER]] = polygon
@@ -116,13 +120,14 @@ def corner_put(trail: Trail, counts: Ints, row: Floats, polygon: int) -> None:
     counts[CORNER] += 1
 
 
-@njit(cache=True)
+@_lent
 def carried(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, length: float) -> None:
     """Put sections before and behind a move; begin a carrier where none is open."""
     way = -1.0 if length < 0.0 else 1.0
     if whole[CARRIER] == NONE:
         whole[CARRIER] = part_put(trail, counts, at, CARRY, row, 1.0, 1.0, 1.0, 0.0)
-        row[OWN_PLACE : TWIST + 1] = 0.0
+        for k in range(OWN_PLACE, TWIST + 1):
+            row[k] = 0.0
         row[OWN_FRAME + 2] = row[OWN_FRAME + 3] = row[OWN_FRAME + 7] = 1.0
         spot_put(trail, counts, row, whole, way)
     for k in range(3):
@@ -130,7 +135,7 @@ def carried(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, lengt
     spot_put(trail, counts, row, whole, way)
 
 
-@njit(cache=True)
+@_lent
 def moved(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: Ints, operation: int, length: float,
           ends: bool) -> int:  # fmt: skip
     """Move, and draw what MOVE, DRAW or CARRY draw outside of polygons; within one the place is a corner."""
@@ -152,7 +157,7 @@ def moved(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: I
     return 0
 
 
-@njit(cache=True)
+@_lent
 def plate_put(trail: Trail, counts: Ints, at: int, row: Floats, inner: float, outer: float) -> None:
     """Put a disc in the plane of heading and left, as thick as twice the radius."""
     inner, outer = min(abs(inner), abs(outer)), max(abs(inner), abs(outer))
@@ -165,7 +170,7 @@ def plate_put(trail: Trail, counts: Ints, at: int, row: Floats, inner: float, ou
     trail.extras[part, 0] = inner / outer
 
 
-@njit(cache=True)
+@_lent
 def surface_put(trail: Trail, counts: Ints, at: int, row: Floats, scale: float) -> None:
     """Put the mean of the surfaces and forget their weights; those under 0 count as 0."""
     total = 0.0
@@ -178,16 +183,19 @@ def surface_put(trail: Trail, counts: Ints, at: int, row: Floats, scale: float) 
             trail.frames[part, k, 2] = row[FRAME + 6 + k] * scale
         for k in range(WEIGHTS, row.size):
             trail.extras[part, k - WEIGHTS] = max(row[k], 0.0) / total
-    row[WEIGHTS:] = 0.0
+    for k in range(WEIGHTS, row.size):
+        row[k] = 0.0
 
 
-@njit(cache=True)
+@_lent
 def bracketed(trail: Trail, counts: Ints, states: Floats, wholes: Ints, operation: int) -> int:
     """Begin or end a branch."""
     top = counts[TOP]
     if operation == OPEN:
-        states[top + 1] = states[top]
-        wholes[top + 1] = wholes[top]
+        for k in range(states.shape[1]):
+            states[top + 1, k] = states[top, k]
+        for k in range(STATE_COLUMNS):
+            wholes[top + 1, k] = wholes[top, k]
         wholes[top + 1, CARRIER] = NONE
         wholes[top + 1, FIRST_POLYGON] = counts[POLYGON]
         counts[TOP] += 1
@@ -200,15 +208,16 @@ def bracketed(trail: Trail, counts: Ints, states: Floats, wholes: Ints, operatio
     return 0
 
 
-@njit(cache=True)
+@_lent
 def tip_put(trail: Trail, counts: Ints, row: Floats, whole: Ints) -> None:
     """Put a tip where the turtle is."""
-    trail.tips[counts[TIP]] = row[PLACE : PLACE + 3]
+    for k in range(3):
+        trail.tips[counts[TIP], k] = row[PLACE + k]
     trail.movers[counts[TIP]] = whole[MOVER]
     counts[TIP] += 1
 
 
-@njit(cache=True)
+@_lent
 def outlined(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: Ints, operation: int) -> None:
     """Begin a polygon, or close the one begun last in this branch."""
     if operation == BEGIN:
@@ -222,7 +231,7 @@ def outlined(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile
         trail.extras[pile[counts[POLYGON]], 0] = 1.0
 
 
-@njit(cache=True)
+@_lent
 def shaded(row: Floats, whole: Ints, operation: int, given: Floats, palette: Floats) -> None:
     """Change the colour."""
     if operation == COLOUR:
@@ -231,10 +240,11 @@ def shaded(row: Floats, whole: Ints, operation: int, given: Floats, palette: Flo
         return
     size = palette.shape[0]
     whole[HUE] = int(math.floor(given[0]) % size) if given.size else (whole[HUE] + 1) % size
-    row[SHADE : SHADE + 3] = palette[whole[HUE]]
+    for k in range(3):
+        row[SHADE + k] = palette[whole[HUE], k]
 
 
-@njit(cache=True)
+@_lent
 def chosen(row: Floats, whole: Ints, operation: int, kind: int, given: Floats) -> int:
     """Set what later modules draw with: radius, section, weight of a surface."""
     if operation == SECTION:
@@ -250,7 +260,7 @@ def chosen(row: Floats, whole: Ints, operation: int, kind: int, given: Floats) -
     return 0
 
 
-@njit(cache=True)
+@_lent
 def put(trail: Trail, counts: Ints, at: int, row: Floats, operation: int, given: Floats) -> int:
     """Draw a disc, a sphere or a surface."""
     for value in given:
@@ -268,9 +278,9 @@ def put(trail: Trail, counts: Ints, at: int, row: Floats, operation: int, given:
     return 0
 
 
-@njit(cache=True)
+@_lent
 def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floats, palette: Floats, states: Floats,
-           wholes: Ints, pile: Ints, trail: Trail) -> tuple[Ints, int, int]:  # fmt: skip
+           wholes: Ints, pile: Ints, trail: Trail, counts: Ints) -> tuple[int, int]:  # fmt: skip
     """Walk along a word.
 
     Parameters
@@ -290,15 +300,14 @@ def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floa
         Room for the polygons that are open.
     trail
         Room for what is drawn; written.
+    counts
+        (6,) int64, 0; then how many parts, sections, corners and tips of the trail are written.
 
     Returns
     -------
-    counts
-        (6,) int64, how many parts, sections, corners and tips of the trail are written.
     trouble, at
         0 and 0, or what is wrong and with which module.
     """
-    counts = np.zeros(COUNTERS, np.int64)
     for at in range(codes.size):
         operation = code.operations[codes[at]]
         if operation == IDLE:
@@ -306,9 +315,9 @@ def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floa
         row, whole = states[counts[TOP]], wholes[counts[TOP]]
         given = values[starts[at] : starts[at + 1]]
         if given.size < code.least[codes[at]]:
-            return counts, FEW, at
+            return FEW, at
         if given.size > code.most[codes[at]]:
-            return counts, MANY, at
+            return MANY, at
         trouble = 0
         if operation <= CLOSE:
             trouble = bracketed(trail, counts, states, wholes, operation)
@@ -327,8 +336,8 @@ def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floa
         else:
             trouble = put(trail, counts, at, row, operation, given)
         if trouble:
-            return counts, trouble, at
+            return trouble, at
     if counts[TOP]:
-        return counts, UNBALANCED, codes.size - 1
+        return UNBALANCED, codes.size - 1
     tip_put(trail, counts, states[0], wholes[0])
-    return counts, 0, 0
+    return 0, 0

@@ -97,8 +97,9 @@ def walk(word: Word, turtle: TurtleSettings) -> Trail | Failure:
     unit = 1.0 if word.radians else np.pi / 180.0
     defaults = np.array([turtle.length, np.radians(turtle.angle), unit])
     pile = np.empty(int(found[BEGIN]) + 1, dtype=np.int64)
-    counts, trouble, at = _kernels.walked(
-        code, word.codes, word.starts, word.values, defaults, PALETTE, states, wholes, pile, trail
+    counts = np.zeros(_kernels.COUNTERS, dtype=np.int64)
+    trouble, at = _kernels.walked(
+        code, word.codes, word.starts, word.values, defaults, PALETTE, states, wholes, pile, trail, counts
     )
     if trouble:
         reason = "diverged" if trouble == FAR else "rules"
