@@ -1,0 +1,30 @@
+"""Finds a criterion of timed forms by its name: one of the project's, an import path, or an installed plug-in's.
+
+To add one, write it in a file of its own and name it in :data:`TIMED_CRITERIA`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Final
+
+from evaluators.catalogue import Catalogue
+from evaluators.timed.height import height
+from evaluators.timed.size import size
+from evaluators.timed.unfolding import Unfolding
+
+TimedCriterion = Callable[[Unfolding], float]
+"""A function of a form that unfolds to one finite number; it changes nothing."""
+
+TIMED_CRITERIA: Final[Mapping[str, TimedCriterion]] = MappingProxyType(
+    {
+        "height": height,
+        "size": size,
+    }
+)
+"""The project's own criteria of timed forms."""
+
+_FOUND: Final = Catalogue[TimedCriterion](TIMED_CRITERIA)
+resolve = _FOUND.resolve
+resolve_all = _FOUND.resolve_all
