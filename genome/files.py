@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 from genome.errors import InputError
@@ -24,5 +26,30 @@ def write_whole(path: Path, content: bytes) -> None:
     except OSError as error:
         with contextlib.suppress(OSError):
             waiting.unlink()
+        reason = error.strerror or str(error)
+        raise InputError(str(path), "a file that can be written", reason.lower(), "check the folder") from None
+
+
+def write_together(files: Mapping[Path, bytes]) -> None:
+    """Write several files beside their places, and move them there when all are written.
+
+    Raises
+    ------
+    InputError
+        When one cannot be written; then none is.
+    """
+    waiting = {path: path.with_name(f".{path.name}.{os.getpid()}.tmp") for path in files}
+    path = Path()
+    try:
+        for path, content in files.items():
+            if path.is_dir():  # nothing can be moved there, and by then others would have been
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            waiting[path].write_bytes(content)
+        for path, written in waiting.items():
+            written.replace(path)
+    except OSError as error:
+        for written in waiting.values():
+            with contextlib.suppress(OSError):
+                written.unlink()
         reason = error.strerror or str(error)
         raise InputError(str(path), "a file that can be written", reason.lower(), "check the folder") from None

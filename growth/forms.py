@@ -154,6 +154,11 @@ def write_form(
     write_whole(path, writer(surface, {**words, **(extras or {})}))
 
 
+def form_bytes(surface: Surface, suffix: str) -> bytes:
+    """Give a surface as a file's content, by the suffix of the format: one of :data:`WRITERS`."""
+    return WRITERS[suffix](surface, {})
+
+
 def _glb(surface: Surface, extras: Mapping[str, Any]) -> bytes:
     import trimesh
     from trimesh.exchange.gltf import export_glb

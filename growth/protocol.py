@@ -40,7 +40,8 @@ class Failure:
     ----------
     reason
         One of the words that logs are searched by: ``mapping``, ``rules``, ``budget``, ``clock``, ``diverged``,
-        ``boundary``, ``evaluation``, ``load``, ``unstable``, ``empty``, ``small``, ``expression``.
+        ``boundary``, ``evaluation``, ``load``, ``unstable``, ``empty``, ``small``, ``expression``,
+        ``refining``.
     detail
         A sentence that says what happened.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,3 +48,20 @@ class Surface:
     def face(self, index: int) -> Indices:
         """Give the vertex ring of one face."""
         return self.face_vertices[self.face_starts[index] : self.face_starts[index + 1]]
+
+
+def surface_of(vertices: Points, triangles: NDArray[np.integer[Any]]) -> Surface:
+    """Give triangles as a surface; its edges are those of the triangles, each once, in ascending order.
+
+    Parameters
+    ----------
+    vertices
+        (v, 3) float64.
+    triangles
+        (t, 3), places in ``vertices``.
+    """
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    edges = np.unique(sides, axis=0).astype(np.int32)
+    starts = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
+    labels = np.zeros(len(edges), dtype=np.int32)
+    return Surface(vertices, edges, labels, ("Edge0",), starts, triangles.reshape(-1).astype(np.int32))

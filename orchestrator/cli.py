@@ -22,10 +22,15 @@ COMMANDS: Final = {
     "digest": "Give one hash of what happened in a run.",
     "replay": "Regrow a logged individual and score it again.",
     "export": "Write forms of a run's individuals.",
-    "sheet": "Draw a run's best plans side by side.",
+    "refine": "Repair, remesh or smooth a form, or make it a solid.",
+    "report": "Write one HTML file that shows a run.",
+    "sheet": "Draw a run's forms side by side.",
     "schema": "Print the JSON Schema of the experiment file.",
 }
 """The commands in the order of the help; ``orchestrator.commands.NAME`` holds each as ``command``."""
+
+ELSEWHERE: Final = {name: f"analysis.commands.{name}" for name in ("chart", "report", "sheet")}
+"""Commands of rooms that stand on this one: they are found by name, since nothing here imports those."""
 
 
 class Complaint(click.ClickException):
@@ -54,7 +59,7 @@ class LazyGroup(click.Group):
         del ctx
         if cmd_name not in COMMANDS:
             return None
-        found = importlib.import_module(f"orchestrator.commands.{cmd_name}").command
+        found = importlib.import_module(ELSEWHERE.get(cmd_name, f"orchestrator.commands.{cmd_name}")).command
         assert isinstance(found, click.Command)
         return found
 

@@ -81,6 +81,13 @@ class DeadlineSettings(Settings):
     silence: Seconds = 60.0
 
 
+class Scale(Settings):
+    """How many times as many islands, and as many members of each deme, as the file says."""
+
+    islands: Annotated[int, Field(ge=1, le=10**6)] = 1
+    demes: Annotated[int, Field(ge=1, le=10**6)] = 1
+
+
 class Experiment(Settings):
     """A whole experiment."""
 
@@ -92,6 +99,7 @@ class Experiment(Settings):
     schedule: Literal["barrier", "dataflow", "async"] = "barrier"
     hosts: Count | Literal["auto"] = "auto"
     backend: Literal["ray", "inline"] = "ray"
+    scale: Scale | None = None
     defaults: IslandDefaults | None = None
     islands: Annotated[dict[Name, IslandSettings], Field(min_length=1)]
     channels: list[ChannelSettings] = Field(default_factory=list)
@@ -106,6 +114,12 @@ class Experiment(Settings):
         if value == "auto" or (type(value) is int and value >= 1):
             return value
         raise InputError("", "'auto' or a number of at least 1", describe(value))
+
+    @field_validator("scale", mode="before")
+    @classmethod
+    def _scale(cls, value: object) -> object:
+        """One number multiplies both."""
+        return {"islands": value, "demes": value} if type(value) is int else value
 
     @model_validator(mode="after")
     def _one_length(self) -> Self:

@@ -23,7 +23,7 @@ class Request:
 
     file: Path
     steps: int | None
-    until: float | None
+    until: str | None
     environment: Path | None
     overrides: Sequence[str]
     seed: int | None

@@ -17,7 +17,7 @@ from genome.settings import describe, validated
 from genome.yaml import load_yaml
 from islands.kinds.registry import resolve_kind
 from orchestrator.channels import completed
-from orchestrator.experiment import Experiment, IslandDefaults, IslandSettings
+from orchestrator.experiment import Experiment, IslandDefaults, IslandSettings, Scale
 from orchestrator.idle import idle
 from orchestrator.members import lonely
 from orchestrator.overrides import apply_overrides, parse_override
@@ -32,7 +32,7 @@ class Loaded:
     Attributes
     ----------
     experiment
-        ``epochs`` is set, ``generations`` and ``defaults`` are not.
+        ``epochs`` is set; ``generations``, ``defaults`` and ``scale`` are not.
     source
         The file's name, for messages.
     base
@@ -139,14 +139,22 @@ def resolved(data: dict[str, Any], source: str) -> Experiment:
         if isinstance(islands, Mapping):
             data["islands"] = {name: _merged(defaults, island) for name, island in islands.items()}
     experiment = validated(Experiment, data, source)
-    islands = {name: _with_kind(name, island, source) for name, island in experiment.islands.items()}
+    scaled = {name: _scaled(island, experiment.scale or Scale()) for name, island in experiment.islands.items()}
+    islands = {name: _with_kind(name, island, source) for name, island in scaled.items()}
     channels = [
         completed(channel, f"{source}: channels.{number}", experiment.epoch)
         for number, channel in enumerate(experiment.channels)
     ]
     changes = {"islands": islands, "channels": channels, "epochs": experiment.length}
-    changes |= {"generations": None, "defaults": None}
+    changes |= {"generations": None, "defaults": None, "scale": None}
     return experiment.model_copy(update=changes)
+
+
+def _scaled(island: IslandSettings, scale: Scale) -> IslandSettings:
+    """Multiply how many islands of a group there are, and their members."""
+    return island.model_copy(
+        update={"count": island.count * scale.islands, "population": island.population * scale.demes}
+    )
 
 
 def _merged(defaults: Mapping[str, Any], island: object) -> object:

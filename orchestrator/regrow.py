@@ -7,7 +7,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from evaluators.plans import Layout
 from genome.errors import InputError
@@ -17,7 +17,7 @@ from islands.biologies import Biologies
 from islands.forms import written
 from islands.individual import Evaluation, Scores
 from islands.kinds.plans import Planner
-from islands.kinds.protocol import Accompanied, Biology
+from islands.kinds.protocol import Accompanied, Biology, Pictured
 from islands.migration.channel import Migrant
 from orchestrator.circumstances import Circumstances
 from orchestrator.folder import RunFolder
@@ -27,6 +27,9 @@ from orchestrator.steering.journal import read_commands
 from orchestrator.steering.past import Past
 from orchestrator.steering.restructuring import replayed
 from orchestrator.steering.structure import structure_of
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 COLUMNS = "id, island, epoch, genotype, fitness, scores, error, partners"
 
@@ -163,6 +166,23 @@ class Nursery:
             raise InputError(logged.island, "an island of rooms, zones or houses", "one of another kind")
         return biology.layout(biology.decode(logged.genotype))
 
+    def picture(self, logged: Logged, size: tuple[int, int]) -> Image | None:
+        """Draw an individual's form, among the partners that it was first scored with.
+
+        Returns
+        -------
+        An RGB image; ``None`` for one that grows to no form, and for kinds that have no pictures.
+        """
+        biology = self._circumstances.biology(logged.island, logged.epoch)
+        if not isinstance(biology, Pictured):
+            return None
+        return biology.picture(biology.decode(logged.genotype), self._partners(biology, logged), size)
+
+    def _partners(self, biology: Biology[Any], logged: Logged) -> tuple[Migrant, ...]:
+        if not isinstance(biology, Accompanied):
+            return ()
+        return self._circumstances.partners(logged.island, logged.epoch, logged.partners)
+
     def write_forms(self, logged: Logged, folder: Path, formats: Sequence[str]) -> list[Path]:
         """Write an individual's form as ISLAND-ID.SUFFIX, among the partners that it was first scored with."""
         biology = self._circumstances.biology(logged.island, logged.epoch)
@@ -170,9 +190,7 @@ class Nursery:
         facts: dict[str, str | float | bool] = {"run": self._run, "island": logged.island, "id": str(logged.id)}
         if logged.fitness is not None:
             facts["fitness"] = logged.fitness
-        partners: tuple[Migrant, ...] = ()
-        if isinstance(biology, Accompanied):
-            partners = self._circumstances.partners(logged.island, logged.epoch, logged.partners)
+        partners = self._partners(biology, logged)
         return written(biology, biology.decode(logged.genotype), partners, stem, formats, facts)
 
 

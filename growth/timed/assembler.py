@@ -12,7 +12,7 @@ import numpy as np
 from genome.errors import InputError
 from genome.timed import Binary, Call, Expression, Name, Number, Scope, Unary
 from genome.timed.expression import CONSTANTS, DEVELOPMENT, DRAWS
-from growth.timed import _kernels
+from growth.timed import _expressions
 from growth.timed.tables import (
     BINARY_CODES,
     FUNCTION_CODES,
@@ -115,7 +115,7 @@ class Assembler:
         spans = np.array([self.spans[number]], dtype=np.int64)
         ops, args = np.array(self.ops, dtype=np.int64), np.array(self.args, dtype=np.float64)
         slots, stack = np.empty(self.room), np.empty(self.room)
-        value, trouble = _kernels.evaluated(ops, args, spans, 0, slots, np.uint64(0), stack)
+        value, trouble = _expressions.evaluated(ops, args, spans, 0, slots, np.uint64(0), stack)
         return float(value), int(trouble)
 
     def _put(self, expression: Expression, meanings: Meanings, place: Place | None) -> int:

@@ -18,7 +18,7 @@ from genome.errors import InputError
 from genome.settings import describe
 from genome.timed import TimedSystem, check_system
 from growth.protocol import Clock, Failure
-from growth.timed import _kernels
+from growth.timed import _rewriting, _words
 from growth.timed.program import Program, compile_system
 from growth.timed.settings import TimedGrowth
 from growth.timed.tables import CODE, DIES, EVENTS, KEY, MODULES, ROLES, START, START_CODE, TROUBLES, Ints, Modules
@@ -98,9 +98,9 @@ class Derivation:
             A failure has the reason ``expression``, with module and time.
         """
         program, state = self.program, self.state
-        ages, factors, values, trouble, at = _kernels.developed(program.tables, state, self.time)
+        ages, factors, values, trouble, at = _words.developed(program.tables, state, self.time)
         if trouble:
-            module = _described(program, _kernels.alone(*state, at))
+            module = _described(program, _rewriting.alone(*state, at))
             role = f"the development function of {module}"
             return Failure("expression", f"{TROUBLES[trouble]}, in {role} at time {self.time:.9g}")
         codes, starts = state.whole[:, CODE].copy(), np.append(state.whole[:, START], len(values))
@@ -179,7 +179,7 @@ def _by_instants(origin: Derivation, horizon: float, deadline: float, clock: Clo
         instant = float(state.reals[:, DIES].min(initial=math.inf))
         if instant > horizon:
             return state, events
-        sides = _kernels.neighbours(state.whole, origin.program.tables.symbols)
+        sides = _words.neighbours(state.whole, origin.program.tables.symbols)
         reached = _advanced(origin, state, instant + abs(instant) * CLOSE, events, sides, deep=False)
         if isinstance(reached, Failure):
             return reached
@@ -190,7 +190,7 @@ def _by_instants(origin: Derivation, horizon: float, deadline: float, clock: Clo
 
 def _advanced(origin: Derivation, state: Modules, limit: float, events: int, sides: Ints, *, deep: bool) -> _Reached:
     program, budget = origin.program, origin.budget
-    state, events, trouble, role = _kernels.advanced(
+    state, events, trouble, role = _rewriting.advanced(
         program.tables, state, limit, deep, sides, events, budget.max_events, budget.max_modules
     )
     if trouble in (EVENTS, MODULES):

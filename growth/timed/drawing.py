@@ -11,8 +11,10 @@ from typing import NamedTuple, final
 
 import numpy as np
 
-from growth.surface import Indices, Surface
+from growth.surface import Indices, Surface, surface_of
 from growth.timed.tables import Floats, Ints
+
+__all__ = ["Drawing", "Shape", "surface_of"]
 
 
 class Shape(NamedTuple):
@@ -88,20 +90,3 @@ class Drawing:
             triangles.append(self.shapes[which].triangles.astype(np.int64) + count)
             count += len(corners[-1])
         return surface_of(np.concatenate(corners), np.concatenate(triangles))
-
-
-def surface_of(vertices: Floats, triangles: Ints) -> Surface:
-    """Give triangles as a surface; its edges are those of the triangles, each once, in ascending order.
-
-    Parameters
-    ----------
-    vertices
-        (v, 3) float64.
-    triangles
-        (t, 3), places in ``vertices``.
-    """
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    edges = np.unique(sides, axis=0).astype(np.int32)
-    starts = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
-    labels = np.zeros(len(edges), dtype=np.int32)
-    return Surface(vertices, edges, labels, ("Edge0",), starts, triangles.reshape(-1).astype(np.int32))

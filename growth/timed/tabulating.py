@@ -8,7 +8,7 @@ import numpy as np
 
 from genome.errors import InputError
 from genome.timed import Expression, Section, Sheet
-from growth.timed import _kernels
+from growth.timed import _expressions
 from growth.timed.assembler import Assembler, Place
 from growth.timed.figures import CELLS, SAMPLES, Figures
 from growth.timed.tables import NONE, TROUBLES, Floats
@@ -79,7 +79,7 @@ def _values(figure: Section | Sheet, expression: Expression, given: Floats, plac
     number = assembler.add(expression, place.meanings({name: slot for slot, name in enumerate(names)}), place)
     ops, args = np.array(assembler.ops, dtype=np.int64), np.array(assembler.args, dtype=np.float64)
     spans = np.array(assembler.spans, dtype=np.int64)
-    values, trouble, at = _kernels.sampled(ops, args, spans, number, given, assembler.room)
+    values, trouble, at = _expressions.sampled(ops, args, spans, number, given, assembler.room)
     if trouble:
         told = ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, given[at].tolist(), strict=True))
         where = place.scope.system.complaint_place(figure.at)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Final, final
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Final, final
 
 import numpy as np
 from pydantic import BeforeValidator
@@ -26,8 +26,11 @@ from islands.kinds.measures import Scoring
 from islands.kinds.meshes import MESH, mesh_text
 from islands.kinds.pairs import PAIR, paired
 from islands.kinds.protocol import Facts, Keep
-from islands.migration.channel import ChannelKind
+from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 
 class PairGenome(Settings):
@@ -123,11 +126,19 @@ class PairBiology:
                 files += self._whole.write_forms(genotype, stem, ("blocks",), facts)
                 continue
             if suffix == "png":
-                _draw(body, skeletons[0], path)
+                from growth.pictures import write_png
+
+                write_png(_drawn(body, skeletons[0]), path)
             else:
                 write_body(body, self._growth, self._growth.load, path, facts)
             files.append(path)
         return files
+
+    def picture(self, genotype: Parts, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw a pair, each part in a colour of its own; see :class:`islands.kinds.protocol.Pictured`."""
+        del partners  # both parts are in the genotype
+        skeletons = self._grown(genotype)
+        return None if isinstance(skeletons, Failure) else _drawn(self._joined(skeletons)[0], skeletons[0], size)
 
     def _scored(self, genotype: Parts) -> Evaluation:
         started = self._clock()
@@ -152,17 +163,17 @@ class PairBiology:
         return paired(*skeletons, self._growth, self._growth.load)
 
 
-def _draw(body: Body, first: Cells, path: Path) -> None:
+def _drawn(body: Body, first: Cells, size: tuple[int, int] = (1000, 750)) -> Image:
     """Draw a pair, each part in a colour of its own; cells that both share are drawn as the first's."""
     from growth.blocks.skin import body_surface
-    from growth.pictures import render, write_png
+    from growth.pictures import render
 
     internal, boundary = body.internal, body.boundary
     _, here = np.unique(np.concatenate([first, internal]), axis=0, return_inverse=True)
     own = np.isin(here[len(first) :], here[: len(first)])
     parts = [internal[own], internal[~own], boundary]
     shown = [Body(body.lattice, cells, np.zeros(len(cells), dtype=np.uint8)) for cells in parts if len(cells)]
-    write_png(render([body_surface(one) for one in shown], elevation=18.0), path)
+    return render([body_surface(one) for one in shown], size=size, elevation=18.0)
 
 
 @final

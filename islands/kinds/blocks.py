@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Final, final
+from typing import TYPE_CHECKING, Any, ClassVar, Final, final
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from genome.lsystem import LSystem, LSystemGenome, encode, format_blocks
 from genome.settings import Settings
 from growth.blocks import BlockGrowth, grow, stand
 from growth.blocks.body import Body
+from growth.blocks.lattice import Floats
 from growth.protocol import Clock, Failure
 from islands.individual import Evaluation
 from islands.kinds.bodies import (
@@ -35,6 +36,9 @@ from islands.kinds.pairs import PAIR, paired
 from islands.kinds.protocol import Facts, Keep
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 MESHES: Final = ("glb", "obj", "stl", "npz")
 FORMATS: Final = (*MESHES, "png", "blocks")
@@ -143,6 +147,18 @@ class BlocksBiology(LSystemBiology):
             files.append(path)
         return files
 
+    def picture(self, genotype: LSystem, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw a body alone, coloured by its joints' forces; see :class:`islands.kinds.protocol.Pictured`."""
+        from growth.blocks.pictures import body_picture
+
+        del partners  # each body is shown by itself
+        body = self.grown(genotype)
+        return (
+            None
+            if isinstance(body, Failure)
+            else body_picture(body, _forces(body, self._growth, self._growth.load), size)
+        )
+
     def grown(self, genotype: LSystem) -> Body | Failure:
         """Grow a body where it starts."""
         body = grow(genotype, self._growth, self._clock)
@@ -166,8 +182,7 @@ def check_formats(formats: Sequence[str]) -> None:
 
 def write_body(body: Body, growth: BlockGrowth, load: BlockLoad, path: Path, facts: Facts) -> None:
     """Write a body, coloured by its joints' forces where the format has colours and the body could be loaded."""
-    structure = structure_of(body, growth, load)
-    forces = None if isinstance(structure, Failure) else structure.load.by_cell(body)
+    forces = _forces(body, growth, load)
     if path.suffix == ".png":
         from growth.blocks.pictures import body_picture
         from growth.pictures import write_png
@@ -177,6 +192,12 @@ def write_body(body: Body, growth: BlockGrowth, load: BlockLoad, path: Path, fac
     from growth.blocks.forms import write_form
 
     write_form(body, path, path.stem, facts, forces)
+
+
+def _forces(body: Body, growth: BlockGrowth, load: BlockLoad) -> Floats | None:
+    """Give what each cell's joints carry, (n,) float64; ``None`` where the body could not be loaded."""
+    structure = structure_of(body, growth, load)
+    return None if isinstance(structure, Failure) else structure.load.by_cell(body)
 
 
 @final

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Final, Generic, TypeVar
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from evaluators.plans import Layout
 from genome.polyform import Assembly, Room, encode
 from growth.polyforms import Plan, Polyform, Tiling, distances, form_of
 from growth.protocol import Failure
 from islands.individual import Evaluation
 from islands.kinds.parts import read_demand_text
 from islands.migration.channel import Migrant
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 G = TypeVar("G", Room, Assembly)
 
@@ -41,6 +45,18 @@ class PlannedBiology(ABC, Generic[G]):
     @abstractmethod
     def scored(self, genotype: G, partners: tuple[Migrant, ...]) -> Evaluation:
         """Grow and score a genotype by its form, and by what these islands above use and miss."""
+
+    @abstractmethod
+    def layout(self, genotype: G) -> Layout | Failure:
+        """Grow a plan and lay it out."""
+
+    def picture(self, genotype: G, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw a plan; see :class:`islands.kinds.protocol.Pictured`."""
+        from evaluators.plans.drawings.pictures import plan_picture
+
+        del partners  # plans are shown by themselves
+        layout = self.layout(genotype)
+        return None if isinstance(layout, Failure) else plan_picture(layout, size)
 
     def encode(self, genotype: G) -> str:
         """Write a genotype as JSON, the parts of an assembly whole."""

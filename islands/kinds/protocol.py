@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from growth.protocol import Clock
 from islands.individual import Evaluation
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 G = TypeVar("G")
 G_contra = TypeVar("G_contra", contravariant=True)
@@ -130,6 +133,34 @@ class Accompanied(Protocol[G_contra]):
             As of :meth:`Biology.write_forms`.
         partners
             Of one pairing, as of :meth:`Symbiotic.evaluate_with`; none where nobody has come.
+        """
+        ...
+
+
+@runtime_checkable
+class Pictured(Protocol[G_contra]):
+    """A biology whose individuals can be shown."""
+
+    def picture(self, genotype: G_contra, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw an individual's form.
+
+        Parameters
+        ----------
+        genotype
+            What to grow.
+        partners
+            Of one pairing, for kinds that are shown among their partners; none where nobody has come.
+        size
+            Width and height in pixels; what has a shape of its own is drawn within.
+
+        Returns
+        -------
+        An RGB image; ``None`` when the genotype grows to no form.
+
+        Raises
+        ------
+        InputError
+            When the form cannot be drawn.
         """
         ...
 

@@ -7,7 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, ClassVar, Final, final
+from typing import TYPE_CHECKING, Any, ClassVar, Final, final
 
 import numpy as np
 
@@ -32,6 +32,9 @@ from islands.kinds.meshes import MESH
 from islands.kinds.protocol import Facts, Keep
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 MESHES: Final = ("glb", "obj", "ply", "stl")
 FORMATS: Final = (*MESHES, "png", "hemls")
@@ -147,6 +150,14 @@ class SurfaceBiology:
             self._write(text, surface, path, suffix, facts)
             files.append(path)
         return files
+
+    def picture(self, genotype: Genes, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw a surface in its environment; see :class:`islands.kinds.protocol.Pictured`."""
+        from growth.pictures import render
+
+        del partners  # surfaces have none
+        surface = self._grown(genotype)[2]
+        return None if isinstance(surface, Failure) else render(surface, self._environment, size)
 
     def _write(self, text: str, surface: Surface, path: Path, suffix: str, facts: Facts) -> None:
         if suffix == "hemls":

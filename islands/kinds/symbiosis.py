@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
-from typing import Annotated, Final, final
+from typing import TYPE_CHECKING, Annotated, Final, final
 
 import numpy as np
 from pydantic import Field
@@ -36,6 +36,9 @@ from islands.kinds.meshes import mesh_text
 from islands.kinds.protocol import Facts
 from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 REMEMBERED: Final = 256
 """Partners whose cells are kept as they were read."""
@@ -141,6 +144,17 @@ class SymbiosisBiology(LSystemBiology):
         whole = np.stack(np.unravel_index(within, around.grid.shape), axis=1) + around.grid.low
         return mesh_text(*outside_of(body_of(whole, self._growth.cells)))
 
+    def picture(self, genotype: LSystem, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw an individual among its partners, walls cut open; see :class:`islands.kinds.protocol.Pictured`."""
+        from growth.blocks.cutaway import cutaway
+
+        cells = self.grown(genotype)
+        return None if isinstance(cells, Failure) else cutaway(self._company(cells, partners), size)
+
+    def _company(self, cells: Ints, partners: tuple[Migrant, ...]) -> Cohabitants:
+        together = self._together(cells, partners)
+        return Cohabitants(self._growth.cells, *(together[role] for role in ROLES))
+
     def write_forms(self, genotype: LSystem, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
         """Write an individual's own cells as mesh (glb, obj, stl), grid (npz), picture (png), L-system (blocks)."""
         return self.write_forms_with(genotype, (), stem, formats, facts)
@@ -153,8 +167,7 @@ class SymbiosisBiology(LSystemBiology):
         cells = self.grown(genotype)
         if isinstance(cells, Failure):
             return []
-        together = self._together(cells, partners)
-        company = Cohabitants(self._growth.cells, *(together[role] for role in ROLES))
+        company = self._company(cells, partners)
         files = []
         for suffix in formats or USUAL:
             path = stem.with_name(f"{stem.name}.{suffix}")

@@ -17,24 +17,25 @@ from orchestrator.commands._options import emit, example, json_option
         "atoll grow experiments/systems/house.plan -o house.dxf",
         "atoll grow experiments/systems/arch.blocks --set load.axial_strength=30 --forces -o arch.png",
         "atoll grow experiments/systems/piston.tl --time 1.04 --word --json",
+        "atoll grow experiments/systems/flower.tl --time 0:16:0.1 -o flower.glb",
     ),
 )
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option("--steps", type=int, help="Derivation steps, or iterations.")
-@click.option("--time", "until", type=float, help="For timed systems: the time to grow to.")
+@click.option("--time", "until", metavar="T", help="For timed systems: the time to grow to, or FROM:TO:STEP.")
 @click.option("--environment", type=click.Path(path_type=Path), help="An environment file; empty space without.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="A setting of growth, such as scale.")
 @click.option("--seed", type=click.IntRange(min=0), help="For systems that draw at random, in place of their own.")
 @click.option("--forces", is_flag=True, help="For block bodies: what each joint carries; the form is coloured by it.")
 @click.option("--word", is_flag=True, help="For timed systems: the word, as symbols, parameters and ages.")
 @click.option("-o", "output", type=click.Path(path_type=Path, dir_okay=False),
-              help="The form's file: .glb or .png; .obj, .stl, .ply (surfaces), .npz (block bodies), "
-              ".svg, .dxf, .ifc, .json (plans).")  # fmt: skip
+              help="The form's file: .glb or .png; .obj, .stl, .ply (surfaces, timed forms), .npz (block bodies), "
+              ".svg, .dxf, .ifc, .json (plans), .gif, .sheet.png (timed forms).")  # fmt: skip
 @json_option
 def command(
     file: Path,
     steps: int | None,
-    until: float | None,
+    until: str | None,
     environment: Path | None,
     overrides: tuple[str, ...],
     seed: int | None,

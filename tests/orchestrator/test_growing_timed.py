@@ -63,6 +63,17 @@ def test_defines_budget_and_seed_can_be_set() -> None:
     assert "bush.tl did not grow: budget: more modules at time 9 than the 50 that max_modules allows" in few.stderr
 
 
+def test_symbols_that_draw_nothing_are_named(tmp_path: Path) -> None:
+    odd = tmp_path / "odd.tl"
+    odd.write_text("equiv F leg\naxiom leg(1) Z A B\nA -> A B\n", encoding="utf-8")
+    assert grown(odd, "--time", 1)["ignored"] == ["Z", "B"]
+    assert "ignored" not in grown(PISTON, "--time", 1)
+    checked = atoll("check", odd)
+    assert checked.exit_code == 0
+    assert f"note: {odd}: the turtle draws nothing for Z, B; such a symbol needs an equiv" in checked.stderr
+    assert "note" not in atoll("check", PISTON).stderr
+
+
 def test_a_growth_that_fails_exits_with_one(tmp_path: Path) -> None:
     bad = tmp_path / "bad.tl"
     bad.write_text("axiom A(0)\nA(x) @ 2 -> B(1/x)\n", encoding="utf-8")
@@ -83,16 +94,43 @@ def test_bad_input_is_told_in_a_line(tmp_path: Path) -> None:
         refused("constant.tl:1:9: expected a value of K, got division by zero", *command)
     refused("expected a rule file, got no such file", "grow", tmp_path / "none.tl", "--time", 1)
     refused("--time: expected the time to grow to, got none; for example --time 1.5", "grow", PISTON)
-    refused("--time: expected a time of 0 or more, got -1.0", "grow", PISTON, "--time", -1)
-    refused("--time: expected a time of 0 or more, got nan", "grow", PISTON, "--time", "nan")
+    refused("--time: expected a time of 0 or more, or FROM:TO:STEP, got '-1'", "grow", PISTON, "--time", -1)
+    refused("--time: expected a time of 0 or more, or FROM:TO:STEP, got 'nan'", "grow", PISTON, "--time", "nan")
     refused("--steps: expected a form that takes it", "grow", PISTON, "--time", 1, "--steps", 2)
     refused("--forces: expected a form that takes it", "grow", PISTON, "--time", 1, "--forces")
     refused("--environment: expected a form that takes it", "grow", PISTON, "--time", 1, "--environment", "x.env.yaml")
-    refused("-o: expected a form that can be written", "grow", PISTON, "--time", 1, "-o", tmp_path / "x.glb")
+    refused("-o: expected a file that ends in .glb, .png, .gif", "grow", PISTON, "--time", 1, "-o", tmp_path / "x.dxf")
+    refused("-o: expected a form with parts, got none", "grow", PISTON, "--time", 0, "-o", tmp_path / "x.glb")
+    for times in ("0:1", "2:1:1", "0:1:0", "0:1:-1", "a:b:c", "0:inf:1", ""):
+        refused("--time: expected ", "grow", PISTON, "--time", times)
+    refused("--time: expected at most 5000 times", "grow", PISTON, "--time", "0:1:0.0001")
+    refused("--word: expected one time, got --time 0:1:1", "grow", PISTON, "--time", "0:1:1", "--word")
+    refused("--set: turtle.side: expected a known key", "grow", PISTON, "--time", 1, "--set", "turtle.side=9")
     refused("--set: max_module: expected a known key", "grow", PISTON, "--time", 1, "--set", "max_module=3")
     refused("expected the name of a define in the file, got 'WS'", "grow", PISTON, "--time", 1, "--set", "define.WS=3")
     refused("expected a number, got 'a'", "grow", PISTON, "--time", 1, "--set", "define.WR=a")
-    refused("expected key=value or define.NAME=value", "grow", PISTON, "--time", 1, "--set", "a.b=3")
+    refused("expected key=value, define.NAME=value, turtle.KEY=value", "grow", PISTON, "--time", 1, "--set", "a.b=3")
     refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "square.hemls", "--word")
     refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "arch.blocks", "--word")
     refused("--word: expected a timed system (.tl)", "grow", SYSTEMS / "house.plan", "--word")
+
+
+def test_a_range_of_times_becomes_an_animation(tmp_path: Path) -> None:
+    told = grown(PISTON, "--time", "0.04:4.04:1", "-o", tmp_path / "piston.glb")
+    assert (told["frames"], told["parts"], told["time"]) == (5, 3, pytest.approx(4.04))
+    assert told["file"] == str(tmp_path / "piston.glb")
+    low, high = told["bounds"]
+    assert (low[2], high[2]) == (0.0, pytest.approx(360.0))  # the piston's foot, and the wheel's top at its highest
+    several = grown(PISTON, "--time", "1:2:0.5", "-o", tmp_path / "piston.ply")
+    assert several["files"] == [str(tmp_path / f"piston-000{at}.ply") for at in range(3)]
+    assert all(Path(name).is_file() for name in several["files"])
+    assert grown(PISTON, "--time", "0.1:0.7:0.2")["frames"] == 4
+
+
+def test_the_turtle_can_be_set(tmp_path: Path) -> None:
+    bush = SYSTEMS / "bush.tl"
+    sizes = []
+    for sides in (6, 12):
+        grown(bush, "--time", 2, "--set", f"turtle.sides={sides}", "-o", tmp_path / "bush.stl")
+        sizes.append((tmp_path / "bush.stl").stat().st_size - 84)
+    assert sizes == [50 * 25 * 4 * sides for sides in (6, 12)]  # 25 cylinders: two caps and a belt of so many pairs

@@ -1,25 +1,50 @@
-"""Plans of cubes as pictures, through the pictures of surfaces."""
+"""Plans as pictures of a size that is asked for; those of cubes through the pictures of surfaces."""
 
 from __future__ import annotations
 
 import io
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evaluators.plans.drawings.draw import drawing
 from evaluators.plans.drawings.glb import cube_parts
 from evaluators.plans.drawings.solids import Floats, Indices
 from evaluators.plans.layout import Layout
 from growth.pictures import render
 from growth.surface import Surface
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
-def cubes_png(layout: Layout, size: tuple[int, int] = (1000, 750)) -> bytes:
+
+def plan_picture(layout: Layout, size: tuple[int, int]) -> Image:
+    """Draw a plan within so many pixels, white around it."""
+    from PIL import Image
+
+    from evaluators.plans.drawings.png import picture
+    from evaluators.plans.drawings.sheet import bare
+
+    if layout.plan.tiling.solid:
+        return cubes_picture(layout, size)
+    drawn = picture(bare(drawing(layout, "")))
+    drawn.thumbnail(size)
+    sheet = Image.new("RGB", size, "#ffffff")
+    sheet.paste(drawn, ((size[0] - drawn.width) // 2, (size[1] - drawn.height) // 2))
+    return sheet
+
+
+def cubes_picture(layout: Layout, size: tuple[int, int] = (1000, 750)) -> Image:
     """Draw the rooms of a plan of cubes, each in a colour, from the south-west above, so many pixels wide and high."""
     parts = cube_parts(layout)
     colours = [np.tile(np.array(part.colour) / 255.0, (len(part.solid.triangles) // 2, 1)) for part in parts]
-    image = render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours, size=size)
+    return render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours, size=size)
+
+
+def cubes_png(layout: Layout) -> bytes:
+    """Draw the rooms of a plan of cubes as a PNG file."""
     stream = io.BytesIO()
-    image.save(stream, format="PNG", optimize=True)
+    cubes_picture(layout).save(stream, format="PNG", optimize=True)
     return stream.getvalue()
 
 

@@ -68,6 +68,17 @@ def sheet(drawings: Sequence[Drawing], title: str) -> Paper:
     return Paper(title, WIDTH, height, (back, *marks))
 
 
+def bare(drawing: Drawing) -> Paper:
+    """Put one plan on a page that is no larger than it is, with its rooms' abbreviations and nothing else."""
+    (left, low), (right, high) = extent(drawing, dimensioned=False)
+    short = abbreviations(list(dict.fromkeys(room.name for room in drawing.rooms)))
+    scale = (WIDTH / 3 - MARGIN) / max(right - left, high - low)
+    wide, tall = scale * (right - left) + MARGIN, scale * (high - low) + MARGIN
+    pen = Pen(scale, (MARGIN / 2 - scale * left, MARGIN / 2 + scale * high))
+    back = Fill("paper", (((0.0, 0.0), (wide, 0.0), (wide, tall), (0.0, tall)),), PAPER)
+    return Paper(drawing.title, wide, tall, (back, *plan(drawing, pen, short)))
+
+
 def sheet_svg(drawings: Sequence[Drawing], title: str) -> bytes:
     """Write a sheet as SVG."""
     return paper_svg(sheet(drawings, title))

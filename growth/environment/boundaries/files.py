@@ -40,7 +40,7 @@ def read_mesh(path: Path, source: str) -> tuple[Floats, Triangles]:
         When the file is missing, unreadable, empty, not finite, flat or not closed.
     """
     where = f"{source}: {path}"
-    vertices, faces = _loaded(path, where)
+    vertices, faces = load_triangles(path, where)
     if path.suffix.lower() in Y_UP:
         vertices = np.stack([vertices[:, 0], -vertices[:, 2], vertices[:, 1]], axis=1)
     return closed(vertices, faces, where)
@@ -62,13 +62,31 @@ def closed(vertices: Floats, faces: NDArray[np.int64], where: str) -> tuple[Floa
     return _outward(vertices, triangles, where)
 
 
-def _loaded(path: Path, where: str) -> tuple[Floats, NDArray[np.int64]]:
+def load_triangles(
+    path: Path, where: str, remedy: str = "check the path; it is relative to the environment file"
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Read all triangles of a file as they stand in it: vertices (v, 3) float64 and triangles (t, 3) int64.
+
+    Parameters
+    ----------
+    path
+        The file.
+    where
+        The place that an error names.
+    remedy
+        What to do where the file is missing.
+
+    Raises
+    ------
+    InputError
+        When the file is missing or cannot be read.
+    """
     import trimesh
 
     if path.is_dir():
         raise InputError(where, "a mesh file", "a folder")
     if not path.is_file():
-        raise InputError(where, "a mesh file", "no such file", "check the path; it is relative to the environment file")
+        raise InputError(where, "a mesh file", "no such file", remedy)
     if path.stat().st_size == 0:
         raise InputError(where, "a mesh file", "an empty file")
     known = sorted(trimesh.available_formats())

@@ -13,6 +13,9 @@ from growth.timed.tables import Floats, Ints
 PINCH: float = 1e-6
 """No ring within a carrier is narrower than this part of its widest."""
 
+STRAY: float = 1e-12
+"""Pieces shorter than this part of the widest radius have no length."""
+
 
 @njit(cache=True)
 def unit(vectors: Floats, at: int, x: float, y: float, z: float) -> bool:
@@ -72,7 +75,8 @@ def traced(spots: Floats, kinds: Ints, rings: int) -> tuple[Floats, Floats, Floa
     count = spots.shape[0]
     lengths = np.empty(count - 1)
     for k in range(count - 1):
-        lengths[k] = math.sqrt(((spots[k + 1, :3] - spots[k, :3]) ** 2).sum())
+        length = math.sqrt(((spots[k + 1, :3] - spots[k, :3]) ** 2).sum())
+        lengths[k] = length if length > STRAY * spots[:, 6].max() else 0.0
     gains = slopes(lengths, spots[:, 6].copy())
     most = 1 + rings * (count - 1)
     centres, headings = np.empty((most, 3)), np.empty((most, 3))

@@ -46,11 +46,12 @@ def turned(row: Floats, frame: int, operation: int, cosine: float, sine: float) 
         row[first + k], row[second + k] = a * cosine + b * sine, b * cosine - a * sine
     hx, hy, hz = row[frame], row[frame + 1], row[frame + 2]
     lx, ly, lz = row[frame + 3], row[frame + 4], row[frame + 5]
-    scale = 1.0 / math.sqrt(hx * hx + hy * hy + hz * hz)
+    # They are unit vectors but for rounding: the first step of Newton's method is exact, and needs no root.
+    scale = 1.5 - 0.5 * (hx * hx + hy * hy + hz * hz)
     hx, hy, hz = hx * scale, hy * scale, hz * scale
     along = hx * lx + hy * ly + hz * lz
     lx, ly, lz = lx - along * hx, ly - along * hy, lz - along * hz
-    scale = 1.0 / math.sqrt(lx * lx + ly * ly + lz * lz)
+    scale = 1.5 - 0.5 * (lx * lx + ly * ly + lz * lz)
     lx, ly, lz = lx * scale, ly * scale, lz * scale
     row[frame], row[frame + 1], row[frame + 2] = hx, hy, hz
     row[frame + 3], row[frame + 4], row[frame + 5] = lx, ly, lz
@@ -58,8 +59,11 @@ def turned(row: Floats, frame: int, operation: int, cosine: float, sine: float) 
 
 
 @_lent
-def steered(row: Floats, whole: Ints, operation: int, angle: float) -> None:
-    """Carry out an operation that turns, by an angle in radians."""
+def steered(row: Floats, whole: Ints, operation: int, angle: float, memory: Floats) -> None:
+    """Carry out an operation that turns, by an angle in radians.
+
+    The memory holds an angle with its cosine and sine, those of the turn before: words repeat themselves.
+    """
     if operation == AROUND:
         operation, angle, cosine, sine = TURN, math.pi, -1.0, 0.0
     else:
@@ -72,7 +76,10 @@ def steered(row: Floats, whole: Ints, operation: int, angle: float) -> None:
             angle = math.atan2(x * row[FRAME + 6] + y * row[FRAME + 7], x * row[FRAME + 3] + y * row[FRAME + 4])
         elif operation >= RIGHT:
             operation, angle = operation - 3, -angle
-        cosine, sine = math.cos(angle), math.sin(angle)
+        if abs(angle) != memory[0]:
+            memory[0] = abs(angle)
+            memory[1], memory[2] = math.cos(memory[0]), math.sin(memory[0])
+        cosine, sine = memory[1], memory[2] if angle >= 0.0 else -memory[2]
     turned(row, FRAME, operation, cosine, sine)
     if whole[CARRIER] != NONE:
         turned(row, OWN_FRAME, operation, cosine, sine)
@@ -81,20 +88,19 @@ def steered(row: Floats, whole: Ints, operation: int, angle: float) -> None:
 
 
 @_lent
-def part_put(trail: Trail, counts: Ints, at: int, operation: int, row: Floats, x: float, y: float, z: float,
-             start: float) -> int:  # fmt: skip
+def part_put(parts: Ints, frames: Floats, colours: Floats, counts: Ints, at: int, operation: int, row: Floats, x: float,
+             y: float, z: float, start: float) -> int:  # fmt: skip
     """Put a part whose x, y and z are the turtle's left, up and heading, so much scaled, from a place ahead of it."""
     part = counts[PART]
     counts[PART] += 1
-    trail.parts[part, 0], trail.parts[part, 1] = at, operation
-    frame = trail.frames[part]
+    parts[part, 0], parts[part, 1] = at, operation
     for k in range(3):
         heading = row[FRAME + k]
-        frame[k, 0], frame[k, 1], frame[k, 2] = row[FRAME + 3 + k] * x, row[FRAME + 6 + k] * y, heading * z
-        frame[k, 3] = row[PLACE + k] + heading * start
-        frame[3, k] = 0.0
-        trail.colours[part, k] = row[SHADE + k]
-    frame[3, 3] = 1.0
+        frames[part, k, 0], frames[part, k, 1] = row[FRAME + 3 + k] * x, row[FRAME + 6 + k] * y
+        frames[part, k, 2], frames[part, k, 3] = heading * z, row[PLACE + k] + heading * start
+        frames[part, 3, k] = 0.0
+        colours[part, k] = row[SHADE + k]
+    frames[part, 3, 3] = 1.0
     return part
 
 
@@ -125,7 +131,7 @@ def carried(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, lengt
     """Put sections before and behind a move; begin a carrier where none is open."""
     way = -1.0 if length < 0.0 else 1.0
     if whole[CARRIER] == NONE:
-        whole[CARRIER] = part_put(trail, counts, at, CARRY, row, 1.0, 1.0, 1.0, 0.0)
+        whole[CARRIER] = part_put(trail.parts, trail.frames, trail.colours, counts, at, CARRY, row, 1.0, 1.0, 1.0, 0.0)
         for k in range(OWN_PLACE, TWIST + 1):
             row[k] = 0.0
         row[OWN_FRAME + 2] = row[OWN_FRAME + 3] = row[OWN_FRAME + 7] = 1.0
@@ -136,25 +142,28 @@ def carried(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, lengt
 
 
 @_lent
-def moved(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: Ints, operation: int, length: float,
+def ahead(row: Floats, length: float) -> int:
+    """Move the turtle; tell whether that is too far."""
+    x, y = row[PLACE] + length * row[FRAME], row[PLACE + 1] + length * row[FRAME + 1]
+    z = row[PLACE + 2] + length * row[FRAME + 2]
+    row[PLACE], row[PLACE + 1], row[PLACE + 2] = x, y, z
+    return 0 if abs(x) <= FARTHEST and abs(y) <= FARTHEST and abs(z) <= FARTHEST else FAR
+
+
+@_lent
+def moved(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: Ints, length: float,
           ends: bool) -> int:  # fmt: skip
-    """Move, and draw what MOVE, DRAW or CARRY draw outside of polygons; within one the place is a corner."""
+    """Move within a polygon, where places are corners, or along a carrier."""
     within = counts[POLYGON] > 0
-    carries = operation == CARRY and not within
-    if carries:
+    if not within:
         carried(trail, counts, at, row, whole, length)
-    elif operation == DRAW and not within and length != 0.0 and row[WIDE] > 0.0:
-        part_put(trail, counts, at, DRAW, row, row[WIDE], row[WIDE], abs(length), min(length, 0.0))
-    if ends or not carries:
+    if ends or within:
         whole[CARRIER] = NONE
     whole[MOVER] = at
-    for k in range(3):
-        row[PLACE + k] += length * row[FRAME + k]
-        if not abs(row[PLACE + k]) <= FARTHEST:
-            return FAR
+    trouble = ahead(row, length)
     if within:
         corner_put(trail, counts, row, pile[counts[POLYGON] - 1])
-    return 0
+    return trouble
 
 
 @_lent
@@ -163,7 +172,7 @@ def plate_put(trail: Trail, counts: Ints, at: int, row: Floats, inner: float, ou
     inner, outer = min(abs(inner), abs(outer)), max(abs(inner), abs(outer))
     if inner == outer or row[WIDE] <= 0.0:
         return
-    part = part_put(trail, counts, at, DISC, row, 1.0, 1.0, 1.0, 0.0)
+    part = part_put(trail.parts, trail.frames, trail.colours, counts, at, DISC, row, 1.0, 1.0, 1.0, 0.0)
     for k in range(3):
         trail.frames[part, k, 0], trail.frames[part, k, 1] = row[FRAME + k] * outer, row[FRAME + 3 + k] * outer
         trail.frames[part, k, 2] = row[FRAME + 6 + k] * (2.0 * row[WIDE])
@@ -177,7 +186,7 @@ def surface_put(trail: Trail, counts: Ints, at: int, row: Floats, scale: float) 
     for k in range(WEIGHTS, row.size):
         total += max(row[k], 0.0)
     if total > 0.0 and scale != 0.0:
-        part = part_put(trail, counts, at, SURFACE, row, 1.0, 1.0, 1.0, 0.0)
+        part = part_put(trail.parts, trail.frames, trail.colours, counts, at, SURFACE, row, 1.0, 1.0, 1.0, 0.0)
         for k in range(3):
             trail.frames[part, k, 0], trail.frames[part, k, 1] = row[FRAME + k] * scale, row[FRAME + 3 + k] * scale
             trail.frames[part, k, 2] = row[FRAME + 6 + k] * scale
@@ -221,7 +230,7 @@ def tip_put(trail: Trail, counts: Ints, row: Floats, whole: Ints) -> None:
 def outlined(trail: Trail, counts: Ints, at: int, row: Floats, whole: Ints, pile: Ints, operation: int) -> None:
     """Begin a polygon, or close the one begun last in this branch."""
     if operation == BEGIN:
-        part = part_put(trail, counts, at, BEGIN, row, 1.0, 1.0, 1.0, 0.0)
+        part = part_put(trail.parts, trail.frames, trail.colours, counts, at, BEGIN, row, 1.0, 1.0, 1.0, 0.0)
         trail.extras[part, 0] = 0.0
         pile[counts[POLYGON]] = part
         counts[POLYGON] += 1
@@ -272,15 +281,48 @@ def put(trail: Trail, counts: Ints, at: int, row: Floats, operation: int, given:
     elif operation == SPHERE:
         radius = abs(given[0]) if given.size else row[WIDE]
         if radius > 0.0:
-            part_put(trail, counts, at, SPHERE, row, radius, radius, radius, 0.0)
+            part_put(trail.parts, trail.frames, trail.colours, counts, at, SPHERE, row, radius, radius, radius, 0.0)
     else:
         surface_put(trail, counts, at, row, given[0] if given.size else 1.0)
     return 0
 
 
 @_lent
+def seldom(code: Code, codes: Ints, given: Floats, defaults: Floats, palette: Floats, row: Floats, whole: Ints,
+           pile: Ints, trail: Trail, counts: Ints, at: int) -> int:  # fmt: skip
+    """Carry out an operation other than brackets, turns and moves; or a move within a polygon."""
+    operation = code.operations[codes[at]]
+    if operation <= CARRY:
+        length, ends = given[0] if given.size else defaults[0], given.size < 2 or given[1] != 0.0
+        return moved(trail, counts, at, row, whole, pile, length, ends)
+    if operation in (BEGIN, FINISH):
+        outlined(trail, counts, at, row, whole, pile, operation)
+        return 0
+    if operation in (COLOUR, PALETTE):
+        shaded(row, whole, operation, given, palette)
+        return 0
+    if operation in (RADIUS, SECTION, WEIGHT):
+        return chosen(row, whole, operation, code.kinds[codes[at]], given)
+    return put(trail, counts, at, row, operation, given)
+
+
+@_lent
+def counted(operations: Ints, codes: Ints, found: Ints) -> int:
+    """Count how often each operation comes, and give how deep brackets nest."""
+    depth = most = 0
+    for code in codes:
+        operation = operations[code]
+        found[operation] += 1
+        if operation <= CLOSE:
+            depth += 1 if operation == OPEN else (-1 if operation == CLOSE else 0)
+            most = max(most, depth)
+    return most
+
+
+@_lent
 def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floats, palette: Floats, states: Floats,
-           wholes: Ints, pile: Ints, trail: Trail, counts: Ints) -> tuple[int, int]:  # fmt: skip
+           wholes: Ints, pile: Ints, trail: Trail, counts: Ints,
+           memory: Floats) -> tuple[int, int]:  # fmt: skip
     """Walk along a word.
 
     Parameters
@@ -302,39 +344,37 @@ def walked(code: Code, codes: Ints, starts: Ints, values: Floats, defaults: Floa
         Room for what is drawn; written.
     counts
         (6,) int64, 0; then how many parts, sections, corners and tips of the trail are written.
+    memory
+        (3,) float64, an angle over 0 with its cosine and sine; written.
 
     Returns
     -------
     trouble, at
         0 and 0, or what is wrong and with which module.
     """
+    parts, frames, colours = trail.parts, trail.frames, trail.colours
     for at in range(codes.size):
         operation = code.operations[codes[at]]
         if operation == IDLE:
             continue
         row, whole = states[counts[TOP]], wholes[counts[TOP]]
         given = values[starts[at] : starts[at + 1]]
-        if given.size < code.least[codes[at]]:
-            return FEW, at
-        if given.size > code.most[codes[at]]:
-            return MANY, at
         trouble = 0
-        if operation <= CLOSE:
+        if given.size < code.least[codes[at]] or given.size > code.most[codes[at]]:
+            trouble = FEW if given.size < code.least[codes[at]] else MANY
+        elif operation <= CLOSE:
             trouble = bracketed(trail, counts, states, wholes, operation)
         elif operation <= BACK or operation in (AROUND, LEVEL):
-            steered(row, whole, operation, given[0] * defaults[2] if given.size else defaults[1])
-        elif operation <= CARRY:
+            steered(row, whole, operation, given[0] * defaults[2] if given.size else defaults[1], memory)
+        elif operation <= DRAW and not counts[POLYGON]:
             length = given[0] if given.size else defaults[0]
-            ends = given.size < 2 or given[1] != 0.0
-            trouble = moved(trail, counts, at, row, whole, pile, operation, length, ends)
-        elif operation in (BEGIN, FINISH):
-            outlined(trail, counts, at, row, whole, pile, operation)
-        elif operation in (COLOUR, PALETTE):
-            shaded(row, whole, operation, given, palette)
-        elif operation in (RADIUS, SECTION, WEIGHT):
-            trouble = chosen(row, whole, operation, code.kinds[codes[at]], given)
+            if operation == DRAW and length != 0.0 and row[WIDE] > 0.0:
+                part_put(parts, frames, colours, counts, at, DRAW, row, row[WIDE], row[WIDE], abs(length),
+                         min(length, 0.0))  # fmt: skip
+            whole[CARRIER], whole[MOVER] = NONE, at
+            trouble = ahead(row, length)
         else:
-            trouble = put(trail, counts, at, row, operation, given)
+            trouble = seldom(code, codes, given, defaults, palette, row, whole, pile, trail, counts, at)
         if trouble:
             return trouble, at
     if counts[TOP]:

@@ -44,6 +44,8 @@ def draw(word: Word, turtle: TurtleSettings | None = None) -> Drawing | Failure:
     if isinstance(trail, Failure):
         return trail
     shelf = _Shelf()
+    if least_vertices(trail, turtle) > turtle.max_vertices:
+        return _too_many(word, turtle)
     which = np.full(len(trail.parts), NONE, dtype=np.int64)
     frames, colours = trail.frames, trail.colours
     for parts, place in _simple(trail, word, turtle, shelf):
@@ -56,10 +58,26 @@ def draw(word: Word, turtle: TurtleSettings | None = None) -> Drawing | Failure:
         which, frames, colours, modules = which[kept], frames[kept], colours[kept], modules[kept]
     sizes = np.array([len(shape.vertices) for shape in shelf.shapes], dtype=np.int64)
     if int(sizes[which].sum()) > turtle.max_vertices:
-        most = f"the {turtle.max_vertices} that max_vertices allows"
-        return Failure("budget", f"more vertices at time {word.time:.9g} than {most}")
+        return _too_many(word, turtle)
     movers = np.where(trail.movers == NONE, 0, word.lineages[trail.movers] if len(word) else 0)
     return Drawing(word.time, tuple(shelf.shapes), which, frames, colours, word.lineages[modules], trail.tips, movers)
+
+
+def _too_many(word: Word, turtle: TurtleSettings) -> Failure:
+    most = f"the {turtle.max_vertices} that max_vertices allows"
+    return Failure("budget", f"more vertices at time {word.time:.9g} than {most}")
+
+
+def least_vertices(trail: Trail, turtle: TurtleSettings) -> int:
+    """Give how many vertices carriers and cylinders have at least, before any is made."""
+    spots, owners = trail.spots, trail.sections[:, 0]
+    order = np.argsort(owners, kind="stable")
+    places, owned = spots[order, :3], owners[order]
+    inner = owned[1:] == owned[:-1]
+    apart = np.linalg.norm(np.diff(places, axis=0), axis=1) > _carriers.STRAY * spots[:, 6].max(initial=0.0)
+    carried = int((inner & apart).sum()) * turtle.rings - 2 * len(np.unique(owned))
+    cylinders = int((trail.parts[:, 1] == DRAW).sum()) * (2 * turtle.sides + 2)
+    return max(carried, 0) * min(turtle.sides, turtle.corners) + cylinders
 
 
 @final
@@ -109,7 +127,7 @@ def _carriers_of(trail: Trail, word: Word, turtle: TurtleSettings, shelf: _Shelf
     for part, rows in _grouped(trail.sections[:, 0]):
         assert sections is not None
         spots, kinds = trail.spots[rows], trail.sections[rows, 1]
-        if not spots[:, 6].any() or (spots[:, :3] == spots[0, :3]).all():
+        if np.abs(spots[:, :3] - spots[0, :3]).max() <= _carriers.STRAY * spots[:, 6].max() or not spots[:, 6].any():
             continue
         sides = turtle.sides if (kinds == CIRCLE).all() else turtle.corners
         if sides not in tables:

@@ -28,7 +28,6 @@ from growth.timed.turtle.tables import (
     MANY,
     MOVE,
     MOVER,
-    OPEN,
     OPERATIONS,
     SECTION,
     SHADE,
@@ -83,11 +82,11 @@ def walk(word: Word, turtle: TurtleSettings) -> Trail | Failure:
         too far, ``budget`` where there are too many parts.
     """
     code = commanded(word)
-    found = np.bincount(code.operations[word.codes], minlength=WEIGHT + 1)
+    found = np.zeros(WEIGHT + 1, dtype=np.int64)
+    depth = _kernels.counted(code.operations, word.codes, found)
     parts = int(found[[DRAW, SPHERE, DISC, SURFACE, CARRY, BEGIN]].sum())
     surfaces = len(word.figures.surfaces)
     trail = _room(found, parts, max(surfaces, 1))
-    depth = 1 + _depth(code.operations[word.codes]) if found[OPEN] else 1
     states, wholes = np.zeros((depth + 1, WEIGHTS + surfaces)), np.zeros((depth + 1, STATE_COLUMNS), dtype=np.int64)
     states[0, FRAME : FRAME + 9] = (0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0)
     states[0, WIDE], states[0, SHADE : SHADE + 3] = turtle.radius, CLAY
@@ -99,7 +98,18 @@ def walk(word: Word, turtle: TurtleSettings) -> Trail | Failure:
     pile = np.empty(int(found[BEGIN]) + 1, dtype=np.int64)
     counts = np.zeros(_kernels.COUNTERS, dtype=np.int64)
     trouble, at = _kernels.walked(
-        code, word.codes, word.starts, word.values, defaults, PALETTE, states, wholes, pile, trail, counts
+        code,
+        word.codes,
+        word.starts,
+        word.values,
+        defaults,
+        PALETTE,
+        states,
+        wholes,
+        pile,
+        trail,
+        counts,
+        np.array([0.0, 1.0, 0.0]),
     )
     if trouble:
         reason = "diverged" if trouble == FAR else "rules"
@@ -145,11 +155,6 @@ def _room(found: Ints, parts: int, width: int) -> Trail:
         tips=np.empty((tips, 3)),
         movers=np.empty(tips, dtype=np.int64),
     )
-
-
-def _depth(operations: Ints) -> int:
-    steps = (operations == OPEN).astype(np.int64) - (operations == CLOSE)
-    return int(np.cumsum(steps).max(initial=0))
 
 
 def _described(word: Word, at: int) -> str:

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
-from growth.forms import to_trimesh
 from growth.timed.drawing import Drawing
 from growth.timed.turtle import _carriers
 from tests.growth.timed.test_turtle import drawn, names, volume
@@ -44,16 +44,15 @@ def test_carriers_are_closed(pieces: list[tuple[float, float, str, str]]) -> Non
     text = " ".join(f"!({radius}) {shape} {turn} cC({length}, 0)" for length, radius, shape, turn in pieces)
     drawing = drawn(f"!(0.25) {text}")
     for part, name in enumerate(names(drawing)):
-        mesh = to_trimesh(drawing.surface()) if len(drawing) == 1 else None
         shape = drawing.shapes[drawing.which[part]]
         assert shape.closed
         if name == "carrier":
-            import trimesh
-
             mesh = trimesh.Trimesh(shape.vertices, shape.triangles, process=False)
             assert mesh.is_watertight
             assert mesh.is_winding_consistent
-            assert mesh.volume > 0.0
+            # A needle that ends in a plate without thickness has no volume but for rounding.
+            needle = any(radius == 0.0 for _, radius, _, _ in pieces)
+            assert mesh.volume > (-1e-6 if needle else 0.0)
 
 
 @pytest.mark.parametrize(

@@ -85,11 +85,11 @@ def test_expressions_are_evaluated_as_the_plain_reference_does(expression: Expre
 
 
 def test_bessel_functions_are_those_of_scipy() -> None:
-    from growth.timed import _kernels
+    from growth.timed import _expressions
 
     for order in (0, 1, 2, 5, 40, -3):
         for x in (0.0, 1e-3, 0.7, 2.4, 10.0, -7.5, 33.3, 400.0, 5000.0):
-            found, trouble = _kernels.bessel(float(order), x)
+            found, trouble = _expressions.bessel(float(order), x)
             assert trouble == 0
             assert found == pytest.approx(scipy.special.jv(order, x), abs=3e-13)
 
@@ -105,8 +105,8 @@ def test_development_functions_call_each_other_with_values() -> None:
 
 
 def test_branches_of_keys_spread() -> None:
-    from growth.timed import _kernels
+    from growth.timed import _expressions
 
-    drawn = np.array([_kernels.uniform(np.uint64(key), number) for key in range(300) for number in range(30)])
+    drawn = np.array([_expressions.uniform(np.uint64(key), number) for key in range(300) for number in range(30)])
     assert len(np.unique(drawn)) == len(drawn)
     assert np.histogram(drawn, 10, (0.0, 1.0))[0] == pytest.approx(900, rel=0.15)

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+import trimesh
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from genome.timed import parse_tl
+from genome.timed import Equiv, TimedSystem, parse_tl
+from genome.timed.commands import TURTLE
 from growth.forms import to_trimesh
 from growth.protocol import Failure
-from growth.timed import Word, derive
+from growth.timed import TimedGrowth, Word, derive
 from growth.timed.drawing import Drawing
 from growth.timed.turtle import TurtleSettings, draw
 from tests.support.reference_drawing import walk
+from tests.support.timed_strategies import systems
 
 NUMBERS = st.one_of(st.sampled_from((0.0, 90.0, 1.0, 30.0)), st.floats(-400.0, 400.0).map(lambda x: round(x, 3)))
 COMMANDS = st.builds(
@@ -203,6 +207,40 @@ def test_budgets_are_exact() -> None:
     assert refused("F F", max_vertices=67) == "budget: more vertices at time 0 than the 67 that max_vertices allows"
     with pytest.raises(ValidationError):
         TurtleSettings(sides=2)
+
+
+def test_a_carrier_that_is_too_large_is_not_made() -> None:
+    text = "axiom A(20000)\nA(n) @ 0 : n > 0 -> cC(1, 0) +(1) A(n - 1)"
+    assert refused(text, rings=100, sides=720).startswith("budget: more vertices at time 0 than the 10000000")
+    sweep = "cC(1, 0) cC(1)"
+    assert len(drawn(sweep, max_vertices=13 * 16 + 2)) == 1
+    assert refused(sweep, max_vertices=13 * 16 + 1).startswith("budget: more vertices")
+
+
+COMMANDED = st.sampled_from([name for name in TURTLE if name not in "[]"])
+
+
+@settings(max_examples=120)
+@given(systems(random=True), st.lists(COMMANDED, min_size=3, max_size=3), st.integers(0, 9))
+def test_any_word_is_drawn_or_refused(system: TimedSystem, commands: list[str], seed: int) -> None:
+    equivs = tuple(Equiv(command, symbol) for command, symbol in zip(commands, "ABC", strict=True))
+    word = derive(replace(system, equivs=equivs), 2.0, seed, TimedGrowth(max_modules=500, max_events=5000))
+    if isinstance(word, Failure):
+        return
+    drawing = draw(word)
+    if isinstance(drawing, Failure):
+        assert drawing.reason in ("rules", "diverged", "budget")
+        return
+    surface = drawing.surface()
+    assert np.isfinite(surface.vertices).all()
+    assert np.isfinite(drawing.tips).all()
+    assert len(drawing.tips) == [word.names[code] for code in word.codes.tolist()].count("]") + 1
+    for which in np.unique(drawing.which).tolist():
+        shape = drawing.shapes[which]
+        mesh = trimesh.Trimesh(shape.vertices, shape.triangles, process=False)
+        assert mesh.is_watertight == shape.closed
+        assert mesh.is_winding_consistent
+    assert np.linalg.det(drawing.frames[:, :3, :3]).min(initial=1.0) > -1e-300 or "~" in commands
 
 
 def test_a_symbol_by_an_equiv_may_have_parameters_of_its_own() -> None:

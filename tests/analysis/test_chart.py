@@ -7,9 +7,9 @@ import io
 import pytest
 from click.testing import CliRunner
 
+from analysis.chart import lines_of, write_chart
 from experiments import bits, run
 from genome.errors import InputError
-from orchestrator.chart import lines_of, write_chart
 from orchestrator.cli import main
 from orchestrator.folder import RunFolder, open_run
 from orchestrator.query import ask

@@ -51,7 +51,7 @@ def test_a_run_ends_with_drawings(done: Path) -> None:
 def test_the_best_plans_of_the_uppermost_level_stand_side_by_side(done: Path, tmp_path: Path) -> None:
     path = tmp_path / "best.svg"
     result = atoll("sheet", done, "--best", 3, "-o", path, "--json")
-    assert json.loads(result.stdout.splitlines()[-1]) == {"file": str(path)}
+    assert json.loads(result.stdout.splitlines()[-1]) == {"file": str(path), "missing": []}
     root = ET.fromstring(path.read_bytes())
     captions = [one.text or "" for one in root.iter() if one.get("class") == "caption"]
     fitness = [float(one.partition(": ")[2]) for one in captions]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from analysis.colours import colour
 from genome.errors import InputError
 from genome.files import write_whole
 from genome.settings import near
@@ -15,9 +16,6 @@ if TYPE_CHECKING:
 
 FITNESS: Final = "fitness"
 FORMATS: Final = ("png", "svg")
-
-COLOURS: Final = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-"""Okabe and Ito's: people who do not tell red from green tell them apart."""
 
 SERIES: Final = """
     with scored as (
@@ -96,9 +94,9 @@ def _drawn(lines: list[Line], score: str, title: str, suffix: str) -> bytes:
         figure = Figure(figsize=(8, 4.5), layout="constrained")
         axes = figure.add_subplot()
         for place, line in enumerate(lines):
-            colour = COLOURS[place % len(COLOURS)]
-            axes.plot(line.generations, line.best, color=colour, linewidth=1.8, label=f"{line.name}: best")
-            axes.plot(line.generations, line.mean, color=colour, linewidth=1.0, linestyle=":", label="mean")
+            shade = colour(place)
+            axes.plot(line.generations, line.best, color=shade, linewidth=1.8, label=f"{line.name}: best")
+            axes.plot(line.generations, line.mean, color=shade, linewidth=1.0, linestyle=":", label="mean")
         axes.set_xlabel("generation")
         axes.set_ylabel(score)
         axes.set_title(title, loc="left", fontsize=11)

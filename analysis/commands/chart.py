@@ -16,7 +16,7 @@ from orchestrator.commands._options import emit, example, json_option
 @json_option
 def command(run: str, score: str, output: Path | None, as_json: bool) -> None:
     """Draw a score of RUN over its generations: of each group of islands the best and the mean of who was scored."""
-    from orchestrator.chart import write_chart
+    from analysis.chart import write_chart
     from orchestrator.folder import open_run
 
     folder = open_run(run)

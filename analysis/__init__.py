@@ -1,0 +1,1 @@
+"""Reading logs: charts, sheets of forms, reports. Nothing here changes a run."""

@@ -1,0 +1,1 @@
+"""The commands that read logs; ``atoll`` finds them by name."""

@@ -1,0 +1,55 @@
+"""Cleaning: no vertex or triangle twice, none without area, no edge of more than two, and fronts that agree."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from growth.protocol import Failure
+from growth.refining.lab import filtered, length
+from growth.refining.mesh import Mesh, pieces, volumes
+
+if TYPE_CHECKING:
+    from growth.refining.recipe import RefineSettings
+
+CLOSE: Final = 1e-7
+"""Vertices nearer to each other than this share of the diagonal are one."""
+
+
+def clean(mesh: Mesh, settings: RefineSettings) -> Mesh | Failure:
+    """Repair a mesh: what stands twice goes, edges of more than two triangles are parted, and fronts agree.
+
+    Pieces that bound a volume have their fronts outward afterwards. A piece with one side, as a Moebius strip, keeps an
+    edge at which fronts do not agree.
+    """
+    del settings
+    found = filtered(
+        mesh,
+        ("meshing_merge_close_vertices", {"threshold": length(CLOSE * mesh.diagonal)}),
+        ("meshing_remove_duplicate_faces", {}),
+        ("meshing_remove_null_faces", {}),
+        ("meshing_repair_non_manifold_edges", {"method": "Split Vertices"}),
+        ("meshing_repair_non_manifold_vertices", {}),
+        ("meshing_re_orient_faces_coherently", {}),
+        ("meshing_remove_unreferenced_vertices", {}),
+    )
+    return found if isinstance(found, Failure) else outward(found)
+
+
+def outward(mesh: Mesh) -> Mesh:
+    """Turn the pieces whose volume is negative; a piece that bounds none has whichever sign, and keeps its fronts."""
+    piece = pieces(mesh.triangles, len(mesh.vertices))
+    uses = np.zeros(int(piece.max(initial=-1)) + 1, dtype=bool)
+    uses[piece[_at_open_edges(mesh)]] = True
+    turned = (np.bincount(piece, weights=volumes(mesh)) < 0.0) & ~uses
+    return Mesh(mesh.vertices, np.where(turned[piece][:, None], mesh.triangles[:, ::-1], mesh.triangles))
+
+
+def _at_open_edges(mesh: Mesh) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+    """Give the triangles that have an edge of their own."""
+    triangles = mesh.triangles.astype(np.int64)
+    ends = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    alone = np.flatnonzero(uses[edge.reshape(-1)] == 1)
+    return np.unique(alone % len(triangles))

@@ -1,0 +1,206 @@
+"""Refining: what each step promises of any form, and what is said where pymeshlab cannot be used."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from genome.errors import InputError
+from growth.protocol import Failure
+from growth.refining import STEPS, Mesh, RefineSettings, lab, parse_recipe, quality, refine
+from growth.refining.clean import outward
+from growth.refining.mesh import pieces
+
+try:
+    lab.load()
+    USABLE, WHY = True, ""
+except InputError as error:  # a bare machine
+    USABLE, WHY = False, str(error)
+with_pymeshlab = pytest.mark.skipif(not USABLE, reason=WHY)
+
+
+def mesh_of(body: trimesh.Trimesh) -> Mesh:
+    return Mesh(np.array(body.vertices, dtype=np.float64), np.array(body.faces, dtype=np.int32))
+
+
+def sheet(count: int = 8, height: float = 0.0) -> Mesh:
+    """A square of 2 by 2, (count + 1)^2 vertices; its waves are as high as asked for."""
+    at = np.linspace(-1.0, 1.0, count + 1)
+    x, y = (grid.reshape(-1) for grid in np.meshgrid(at, at))
+    corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).reshape(-1)
+    first = np.stack([corner, corner + 1, corner + count + 2], axis=1)
+    second = np.stack([corner, corner + count + 2, corner + count + 1], axis=1)
+    vertices = np.stack([x, y, height * np.sin(5.0 * x) * np.cos(4.0 * y)], axis=1)
+    return Mesh(vertices, np.concatenate([first, second]).astype(np.int32))
+
+
+def refined(mesh: Mesh, recipe: str, **settings: object) -> Mesh:
+    found = refine(mesh, parse_recipe(recipe), RefineSettings.model_validate(settings))
+    assert isinstance(found, Mesh)
+    return found
+
+
+def test_quality_of_an_open_a_closed_and_a_crossing_form() -> None:
+    box = mesh_of(trimesh.creation.box((1, 2, 3)))
+    assert quality(box) == (True, True, True, 0, 0, 1, pytest.approx(6.0))
+    assert quality(sheet(4)) == (False, True, True, 16, 0, 1, pytest.approx(0.0))
+    apart = Mesh(np.concatenate([box.vertices, box.vertices + 9]), np.concatenate([box.triangles, box.triangles + 8]))
+    assert quality(apart)[5:] == (2, pytest.approx(12.0))
+    fin = Mesh(
+        np.append(box.vertices, [[5.0, 5, 5]], axis=0), np.append(box.triangles, [[*box.triangles[0, :2], 8]], axis=0)
+    )
+    assert not quality(fin).manifold
+    assert quality(fin).crossings == 1
+    turned = box.triangles.copy()
+    turned[0] = turned[0, ::-1]
+    assert not quality(Mesh(box.vertices, turned)).oriented
+    assert not quality(Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32))).watertight
+
+
+def test_pieces_are_joined_by_vertices() -> None:
+    triangles = np.array([[0, 1, 2], [4, 5, 6], [2, 3, 0]], dtype=np.int32)
+    assert pieces(triangles, 7).tolist() == [0, 1, 0]
+
+
+def test_bodies_are_turned_outward_each_by_itself_and_sheets_are_not() -> None:
+    box, flat = mesh_of(trimesh.creation.box()), sheet(2, 0.5)
+    inner = Mesh(box.vertices + 5, box.triangles[:, ::-1])
+    parts = (box, inner, flat, Mesh(flat.vertices + 9, flat.triangles[:, ::-1]))
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    whole = Mesh(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)]),
+    )
+    turned = outward(whole).triangles
+    assert (turned[:12] == whole.triangles[:12]).all()
+    assert (turned[12:24] == whole.triangles[12:24][:, ::-1]).all()
+    assert (turned[24:] == whole.triangles[24:]).all()
+
+
+@with_pymeshlab
+def test_cleaning_parts_crossings_and_makes_fronts_agree() -> None:
+    box = mesh_of(trimesh.creation.box())
+    triangles = box.triangles.copy()
+    triangles[::3] = triangles[::3, ::-1]
+    again = np.concatenate([triangles, triangles[:2], [[3, 3, 3]]])
+    soup = Mesh(box.vertices[again].reshape(-1, 3), np.arange(3 * len(again), dtype=np.int32).reshape(-1, 3))
+    found = quality(refined(soup, "clean"))
+    assert found == (True, True, True, 0, 0, 1, pytest.approx(1.0))
+    fin = Mesh(np.append(box.vertices, [[2.0, 2, 2]], axis=0), np.append(box.triangles, [[0, 1, 8]], axis=0))
+    assert not quality(fin).manifold
+    assert quality(refined(fin, "clean")).manifold
+
+
+@with_pymeshlab
+def test_remeshed_triangles_have_nearly_equal_sides_and_keep_the_form() -> None:
+    box = mesh_of(trimesh.creation.box((2, 2, 2)))
+    found = refined(box, "remesh", length=0.25)
+    sides = np.linalg.norm(
+        found.vertices[found.triangles] - np.roll(found.vertices[found.triangles], 1, axis=1), axis=2
+    )
+    assert quality(found).watertight
+    assert quality(found).volume == pytest.approx(8.0, rel=0.01)
+    assert 0.2 < float(np.median(sides)) < 0.3
+    assert float(np.quantile(sides, 0.95) / np.quantile(sides, 0.05)) < 2.5
+
+
+@with_pymeshlab
+def test_smoothing_levels_noise_and_does_not_shrink() -> None:
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    rng = np.random.default_rng(1)
+    rough = Mesh(
+        ball.vertices * (1.0 + 0.02 * rng.standard_normal((len(ball.vertices), 1))), ball.faces.astype(np.int32)
+    )
+    smoothed = refined(rough, "smooth", rounds=20)
+    spread = [float(np.linalg.norm(mesh.vertices, axis=1).std()) for mesh in (rough, smoothed)]
+    assert spread[1] < 0.4 * spread[0]
+    assert quality(smoothed).volume == pytest.approx(4.0 / 3.0 * np.pi, rel=0.02)
+    assert (smoothed.triangles == rough.triangles).all()
+
+
+@with_pymeshlab
+@pytest.mark.parametrize("height", [0.0, 0.2])
+def test_a_surface_becomes_a_solid_of_the_thickness_asked_for(height: float) -> None:
+    surface = sheet(12, height)
+    found = refined(surface, "solid", thickness=0.1)
+    area = trimesh.Trimesh(surface.vertices, surface.triangles).area
+    assert quality(found).watertight
+    assert quality(found).volume == pytest.approx(0.1 * area, rel=0.12)
+    extent = np.ptp(found.vertices, axis=0) - np.ptp(surface.vertices, axis=0)
+    assert (extent < 0.11).all()
+    assert (extent > 0.02).all()
+
+
+@with_pymeshlab
+def test_a_solid_stays_as_it_is_and_touching_bodies_become_one() -> None:
+    box = mesh_of(trimesh.creation.box())
+    assert refined(box, "solid").vertices.tolist() == refined(box, "clean").vertices.tolist()
+    # Two cubes that share an edge: closed, and four triangles at one edge.
+    pair = Mesh(
+        np.concatenate([box.vertices, box.vertices + np.array([1, 1, 0])]),
+        np.concatenate([box.triangles, box.triangles + 8]),
+    )
+    found = quality(refined(pair, "solid"))
+    assert found.watertight
+    assert found.parts == 1
+    assert found.volume == pytest.approx(2.0, rel=0.05)
+
+
+@with_pymeshlab
+@given(st.integers(0, 2**32 - 1))
+def test_solid_of_any_triangles_is_watertight_and_the_same_each_time(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    soup = Mesh(rng.normal(size=(12, 3)), rng.permuted(np.tile(np.arange(12, dtype=np.int32), (6, 1)), axis=1)[:, :3])
+    found = refined(soup, "solid", thickness=0.2)
+    assert quality(found).watertight
+    assert quality(found).volume > 0.0
+    assert refined(soup, "solid", thickness=0.2).vertices.tobytes() == found.vertices.tobytes()
+
+
+@with_pymeshlab
+def test_what_is_not_a_form_fails_as_a_value() -> None:
+    point = Mesh(np.ones((3, 3)), np.array([[0, 1, 2]], dtype=np.int32))
+    assert refine(point, ("clean",)) == Failure(
+        "refining", "meshing_merge_close_vertices: nothing was left of the form"
+    )
+    assert refine(point, ("solid",)) == Failure("refining", "solid: the form has no extent")
+
+
+def test_recipes_are_names_with_commas_or_blanks() -> None:
+    assert parse_recipe("clean, remesh smooth,solid") == tuple(STEPS)
+    with pytest.raises(
+        InputError, match="--recipe: expected steps: clean, remesh, smooth, solid, got 'sold'; did you mean 'solid'"
+    ):
+        parse_recipe("clean,sold")
+    with pytest.raises(InputError, match="got none"):
+        parse_recipe(" , ")
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (
+            ImportError("libGL.so.1: cannot open shared object file"),
+            "lacks libGL.so.1, which it needs; apt-get install libgl1",
+        ),
+        (ImportError("libfoo-2.so.3: cannot open"), "install the package that holds libfoo-2.so.3"),
+        (ModuleNotFoundError("No module named 'pymeshlab'", name="pymeshlab"), "it is not installed; install it: pip"),
+        (ImportError("a symbol is missing"), "it does not load: a symbol is missing"),
+    ],
+)
+def test_what_pymeshlab_lacks_is_said(monkeypatch: pytest.MonkeyPatch, error: ImportError, told: str) -> None:
+    class Lacking:
+        def find_spec(self, name: str, *_: object) -> None:
+            if name == "pymeshlab":
+                raise error
+
+    monkeypatch.delitem(sys.modules, "pymeshlab", raising=False)
+    monkeypatch.setattr(sys, "meta_path", [Lacking(), *sys.meta_path])
+    with pytest.raises(InputError) as caught:
+        lab.load()
+    assert told in str(caught.value)
