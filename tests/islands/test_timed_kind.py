@@ -12,7 +12,7 @@ from genome.errors import InputError
 from genome.timed import parse_tl
 from islands.individual import Evaluation
 from islands.kinds.meshes import read_mesh_text
-from islands.kinds.timed import FORMATS, MESHES, TimedKind
+from islands.kinds.timed import COSTLY, FORMATS, MESHES, TimedKind
 
 
 def scores(found: Evaluation) -> dict[str, float]:
@@ -22,7 +22,9 @@ def scores(found: Evaluation) -> dict[str, float]:
 
 def test_a_form_is_measured_by_every_criterion_at_the_time_at_which_it_is_judged(tmp_path) -> None:
     told = scores(timed(tmp_path, fitness={"parts": {"goal": "maximise"}}).evaluate(plant()))
-    assert set(told) == set(TIMED_CRITERIA)
+    assert set(told) == {*TIMED_CRITERIA} - {*COSTLY}
+    goals = {name: {"goal": "maximise"} for name in (*COSTLY, "parts")}
+    assert set(scores(timed(tmp_path, fitness=goals).evaluate(plant()))) == set(TIMED_CRITERIA)
     assert told["parts"] == 7.0, "three segments, three branches and a sphere"
     early = timed(tmp_path, growth={"time": 2.5}, fitness={"parts": {"goal": "maximise"}}).evaluate(plant())
     assert scores(early)["parts"] == 4.0

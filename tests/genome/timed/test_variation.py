@@ -27,12 +27,12 @@ from genome.timed.variation import (
     shipped_systems,
     stochastic,
 )
-from genome.timed.variation.bounds import bounds_of
+from genome.timed.variation.bounds import bounds_of, free
 from genome.timed.variation.constants import constant, define_values, stillborn
 from genome.timed.variation.crossover import by_symbol, by_words
 from genome.timed.variation.events import EVENTS, Site
 from genome.timed.variation.numbers import Numbers
-from genome.timed.variation.places import literals, with_literals
+from genome.timed.variation.places import Role, literals, with_literals
 from genome.timed.variation.words import any_place, any_span, depth, levels, put
 from genome.timed.variation.writer import Writer, read_whole
 
@@ -216,6 +216,34 @@ def test_a_terminal_age_stays_the_same_in_all_productions_of_a_symbol() -> None:
     assert len(ends) > 15
 
 
+def test_a_whole_number_that_changes_is_another_and_one_without_a_value_begins_in_the_middle() -> None:
+    system = parse_tl("#define K 5\n#define M sin(1)\naxiom A(K*M)\n")
+    breeds = breeder(
+        system, {"K": {"bounds": [0, 10], "whole": True}, "M": [0, 10]}, number_mutation=1.0, number_step=0.01
+    )
+    rng = np.random.default_rng(15)
+    found = [define_values(breeds.mutate(TimedGenotype(system), rng).system) for _ in range(200)]
+    assert {one["K"] for one in found} == {4.0, 6.0}
+    assert all(4.5 < one["M"] < 5.5 for one in found)
+
+
+def test_what_the_grammar_wrote_varies_as_a_factor_or_stays() -> None:
+    known = bounds_of(PLANT, 2.0, lambda _: True)
+    strange = Role("argument", "F", 0, alone=True)
+    assert free(strange, 0.7, known, 2.0) == (0.5, 2.0, False)
+    assert free(strange, 22.5, known, 2.0) is None
+    assert free(strange, 0.0, known, 2.0) is None
+    counted = parse_tl("axiom A(1)\nA(n) -> A(n - 1)\n")
+    low = {
+        role.alone: bounds.low
+        for role, bounds in bounds_of(counted, 4.0, lambda _: True).items()
+        if role.what == "argument"
+    }
+    assert low == {True: 1.0, False: 1.0}
+    signed = next(literals(parse_tl("axiom A(-2)\n"), lambda _: True))
+    assert signed == (Role("argument", "A", 0, alone=True), 2.0), "a sign is a part of the number"
+
+
 def test_numbers_of_protected_productions_stay() -> None:
     breeds, rng = breeder(protected=["leaf", "ring"], number_mutation=1.0), np.random.default_rng(5)
     bred = [breeds.mutate(breeds.random(rng), rng).system for _ in range(30)]
@@ -343,6 +371,25 @@ def test_numbers_alone_are_no_difference_of_productions() -> None:
     assert not differs_in_production(one, other)
     turned = replace(PLANT, productions=(PLANT.productions[1], PLANT.productions[0], *PLANT.productions[2:]))
     assert differs_in_production(one, TimedGenotype(turned, 1)), "the order is asked in"
+
+
+def test_one_that_becomes_stochastic_draws_a_seed() -> None:
+    plain = parse_tl("axiom A(1)\nA(x) @ 1 -> A(x*0.5)\n")
+    rng = np.random.default_rng(16)
+    breeds = breeder(plain, {}, production_mutation=1.0, reseed=0.0)
+    bred = [breeds.mutate(TimedGenotype(plain), rng) for _ in range(60)]
+    assert {stochastic(one.system) for one in bred} == {True, False}, "by a condition of chance"
+    assert all((one.seed != 0) == stochastic(one.system) for one in bred)
+
+
+def test_an_event_that_changes_numbers_alone_does_not_count() -> None:
+    grammar = parse_bnf("<Successor> ::= F '(7)' | F '(8)' | F '(9)' | G '(9)'", "g.bnf")
+    system = parse_tl("axiom A\nA -> F(7)\n")
+    rates = {"production_mutation": 1.0, "mutations": {"rewrite": 1, **dict.fromkeys(set(EVENTS) - {"rewrite"}, 0)}}
+    breeds = Breeder(TimedGenome(system="x", grammar="g.bnf", **rates), system, grammar=grammar)
+    rng = np.random.default_rng(17)
+    bred = [breeds.mutate(TimedGenotype(system), rng) for _ in range(40)]
+    assert np.mean([differs_in_production(one, TimedGenotype(system)) for one in bred]) > 0.9
 
 
 def test_seeds_are_drawn_where_something_is_drawn_at_random() -> None:
