@@ -27,7 +27,7 @@ lint: $(TEST_READY)  ## ruff, mypy strict, import-linter
 torture: $(TEST_READY)  ## the fault suite whole, and its table (minutes)
 	@ATOLL_TORTURE=1 $(BIN)/python -m pytest -q tests/torture -m "torture or ray"
 
-bench: $(TEST_READY)  ## benchmarks, as ratios against peers
+bench: $(TEST_READY) peers  ## benchmarks, as ratios against peers, and the table in docs/bench.md
 	@$(BIN)/python -m benchmarks
 
 peers:           ## an environment of its own for the engines that benchmarks compare with

@@ -22,6 +22,7 @@ from growth.protocol import Failure
 from growth.timed import Word, derive
 from growth.timed.turtle import TurtleSettings, draw
 from growth.timed.turtle.walking import walk
+from tests.support.reference_drawing import Vector, mixed
 
 BUSH = "axiom F(1)\nF(l) -> F(l)[+(25.7)F(l)]F(l)[-(25.7)F(l)]F(l)\n"
 HELIX = "axiom !(0.2) A(399)\nA(n) @ 0 : n > 0 -> cC(0.1, n = 1) +(3) /(1) A(n - 1)\n"
@@ -33,9 +34,6 @@ Module = tuple[str, tuple[float, ...]]
 Row = tuple[float, ...]
 
 
-Vector = tuple[float, float, float]
-
-
 class Turtle(NamedTuple):
     """A place and directions."""
 
@@ -43,13 +41,6 @@ class Turtle(NamedTuple):
     heading: Vector
     left: Vector
     up: Vector
-
-
-def mixed(a: Vector, b: Vector, angle: float) -> tuple[Vector, Vector]:
-    """Turn a vector towards another, and that away."""
-    c, s = math.cos(angle), math.sin(angle)
-    (ax, ay, az), (bx, by, bz) = a, b
-    return (c * ax + s * bx, c * ay + s * by, c * az + s * bz), (c * bx - s * ax, c * by - s * ay, c * bz - s * az)
 
 
 def plain(modules: Sequence[Module]) -> list[Turtle]:

@@ -61,7 +61,9 @@ def surface_of(vertices: Points, triangles: NDArray[np.integer[Any]]) -> Surface
         (t, 3), places in ``vertices``.
     """
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    edges = np.unique(sides, axis=0).astype(np.int32)
+    # One number a pair: to sort rows takes ten times as long.
+    keys = np.unique(sides[:, 0].astype(np.int64) * len(vertices) + sides[:, 1])
+    edges = np.stack(np.divmod(keys, max(len(vertices), 1)), axis=1).astype(np.int32)
     starts = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int32)
     labels = np.zeros(len(edges), dtype=np.int32)
     return Surface(vertices, edges, labels, ("Edge0",), starts, triangles.reshape(-1).astype(np.int32))

@@ -1,7 +1,7 @@
-"""A form's feet: the tips that live at all samples and touch the ground, and what they do there (McCormack, section 5.3).
+"""A form's feet: the tips that live at all samples and touch the ground, and how they move (McCormack, section 5.3).
 
-A legged animal walks on the spot: its body stays where the turtle began, and the ground moves under it with the feet that
-stand. So the body's speed is that of the standing feet, the other way round.
+A legged animal walks on the spot: its body stays where the turtle began, and the ground moves under it with the feet
+that stand. So the body's speed is that of the standing feet, the other way round.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def gait_of(unfolding: Unfolding) -> Gait | None:
 
 def touchdowns(gait: Gait) -> Ints:
     """Count how often each foot (k,) comes down on the ground, once at least."""
-    return np.maximum((gait.stands[1:] & ~gait.stands[:-1]).sum(axis=0), 1)
+    return np.asarray(np.maximum((gait.stands[1:] & ~gait.stands[:-1]).sum(axis=0), 1))
 
 
 def _tracks(drawings: tuple[Drawing, ...]) -> Floats:

@@ -17,9 +17,7 @@ from genome.timed import format_tl
 from genome.timed.genotype import TimedGenotype, decode_genotype, encode_genotype
 from genome.timed.variation import TimedGenome, distances, diversity, load_breeder, system_text
 from growth.protocol import Clock, Failure
-from growth.timed import derive
 from growth.timed.drawing import Drawing
-from growth.timed.turtle import draw
 from islands.individual import Evaluation
 from islands.kinds.measures import Criteria, Scoring
 from islands.kinds.meshes import MESH, mesh_text
@@ -33,8 +31,7 @@ COSTLY: Final = ("smoothness", "surface", "symmetry")
 UNFOLDINGS: Final = Criteria(tuple(name for name in TIMED_CRITERIA if name not in COSTLY), resolve, score)
 """How unfolding forms are measured."""
 
-MESHES: Final = ("glb", "obj", "ply", "stl")
-FORMATS: Final = (*MESHES, "png", "tl")
+FORMATS: Final = ("glb", "obj", "ply", "stl", "png", "gif", "tl")
 USUAL: Final = ("glb", "tl")
 GRACE: Final = 30.0
 """Seconds that the drawing and the criteria may take beside the growth."""
@@ -94,7 +91,7 @@ class TimedBiology:
     def evaluate(self, genotype: TimedGenotype) -> Evaluation:
         """Unfold a form over the island's span of time, and score it."""
         started = self._clock()
-        found: Unfolding | Failure = unfold(genotype.system, self._growth, genotype.seed, self._clock)
+        found = self._unfolded(genotype)
         if isinstance(found, Failure):
             return self._scoring.failed(found, started)
         return self._scoring.of(found, {}, started, self._clock())
@@ -109,34 +106,34 @@ class TimedBiology:
         """
         if kind != "surroundings":
             return encode_genotype(genotype)
-        drawing = self._drawn(genotype)
-        if isinstance(drawing, Failure):
-            raise InputError("offer", "a genotype that grows to a form", str(drawing))
-        vertices, triangles = closed_parts(drawing)
+        found = self._unfolded(genotype)
+        if isinstance(found, Failure):
+            raise InputError("offer", "a genotype that grows to a form", str(found))
+        vertices, triangles = closed_parts(found.form)
         if not len(triangles):
             raise InputError("offer", "a form with a closed part", "none")
         return mesh_text(vertices, triangles)
 
     def write_forms(self, genotype: TimedGenotype, stem: Path, formats: Sequence[str], facts: Facts) -> list[Path]:
-        """Write the form at the time at which it is judged: mesh (glb, obj, ply, stl), picture (png), system (tl)."""
+        """Write the form as it unfolds (glb, gif), or at the time at which it is judged; the system as tl.
+
+        Meshes of that time are obj, ply and stl, its picture is png.
+        """
         for suffix in formats:
             if suffix not in FORMATS:
                 raise InputError("--format", f"one of {', '.join(FORMATS)}", f"'{suffix}'")
-        drawing = self._drawn(genotype)
-        if isinstance(drawing, Failure):
+        found = self._unfolded(genotype)
+        if isinstance(found, Failure):
             return []
         files = []
         for suffix in formats or USUAL:
             path = stem.with_name(f"{stem.name}.{suffix}")
-            _write(genotype, drawing, path, facts)
+            _write(genotype, found, path, facts)
             files.append(path)
         return files
 
-    def _drawn(self, genotype: TimedGenotype) -> Drawing | Failure:
-        """Draw the form at the time at which it is judged."""
-        growth = self._growth
-        word = derive(genotype.system, growth.time, genotype.seed, growth, self._clock)
-        return word if isinstance(word, Failure) else draw(word, growth.turtle)
+    def _unfolded(self, genotype: TimedGenotype) -> Unfolding | Failure:
+        return unfold(genotype.system, self._growth, genotype.seed, self._clock)
 
 
 def closed_parts(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
@@ -158,18 +155,18 @@ def closed_parts(drawing: Drawing) -> tuple[NDArray[np.float64], NDArray[np.int3
     return np.concatenate(corners), np.concatenate(triangles)
 
 
-def _write(genotype: TimedGenotype, drawing: Drawing, path: Path, facts: Facts) -> None:
+def _write(genotype: TimedGenotype, unfolding: Unfolding, path: Path, facts: Facts) -> None:
     if path.suffix == ".tl":
         write_whole(path, format_tl(genotype.system).encode())
-    elif path.suffix == ".png":
-        from growth.pictures import write_png
-        from growth.timed.pictures import picture
+    elif path.suffix == ".glb":
+        from growth.timed.animation import animated_glb
 
-        write_png(picture(drawing), path)
+        write_whole(path, animated_glb(unfolding.drawings, {"title": path.stem, **facts}))
     else:
-        from growth.forms import write_form
+        from growth.timed.animation import write_drawings
 
-        write_form(drawing.surface(), path, title=path.stem, extras=facts)
+        drawings = unfolding.drawings if path.suffix == ".gif" else (unfolding.form,)
+        write_drawings(drawings, path, path.stem)
 
 
 @final

@@ -12,7 +12,7 @@ from genome.errors import InputError
 from genome.timed import parse_tl
 from islands.individual import Evaluation
 from islands.kinds.meshes import read_mesh_text
-from islands.kinds.timed import COSTLY, FORMATS, MESHES, TimedKind
+from islands.kinds.timed import COSTLY, FORMATS, TimedKind
 
 
 def scores(found: Evaluation) -> dict[str, float]:
@@ -112,4 +112,3 @@ def test_a_shipped_system_is_kept_by_its_name(tmp_path) -> None:
     )
     assert genome["system"] == "systems/gait.tl"
     assert genome["grammar"] is None, "nothing varies, and nothing is written"
-    assert set(MESHES) < set(FORMATS)

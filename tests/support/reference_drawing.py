@@ -34,9 +34,8 @@ START = Turtle((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.
 def mixed(a: Vector, b: Vector, angle: float) -> tuple[Vector, Vector]:
     """Turn a towards b, and b away from a."""
     c, s = math.cos(angle), math.sin(angle)
-    towards = tuple(c * x + s * y for x, y in zip(a, b, strict=True))
-    away = tuple(c * y - s * x for x, y in zip(a, b, strict=True))
-    return towards, away  # type: ignore[return-value]
+    (ax, ay, az), (bx, by, bz) = a, b
+    return (c * ax + s * bx, c * ay + s * by, c * az + s * bz), (c * bx - s * ax, c * by - s * ay, c * bz - s * az)
 
 
 def moved(place: Vector, heading: Vector, length: float) -> Vector:

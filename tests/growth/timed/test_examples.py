@@ -43,6 +43,26 @@ def test_shipped_systems_are_drawn_whole(name: str) -> None:
         assert all(shape.closed for shape in drawing.shapes)
 
 
+def branched(origin: complex, length: float, heading: complex, left: int) -> list[complex]:
+    """Give where the segments of a bush of so many rewritings begin, in the plane of heading and left."""
+    if not left:
+        return [origin]
+    third, places = length / 3.0, []
+    for step, angle in ((0.0, 0.0), (1.0, 25.7), (1.0, 0.0), (2.0, -25.7), (2.0, 0.0)):
+        turned = heading * np.exp(1j * np.radians(angle))
+        places += branched(origin + step * third * heading, third, turned, left - 1)
+    return places
+
+
+def test_the_bush_stands_where_its_rule_says() -> None:
+    drawing = drawings("bush", [5.0])[0]
+    places = drawing.frames[:, :3, 3]
+    np.testing.assert_allclose(places[:, 0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(places[:, 2] + 1j * places[:, 1], branched(0j, 3.0**5, 1.0 + 0j, 5), atol=1e-9)
+    np.testing.assert_allclose(drawing.tips[-1], (0.0, 0.0, 243.0), atol=1e-9)
+    assert len(drawing.tips) == 1 + 2 * (5**5 - 1) // 4
+
+
 def test_the_arm_of_the_piston_ends_on_the_rim_of_its_wheel() -> None:
     for drawing in drawings("piston", np.linspace(0.04, 9.0, 60).tolist()):
         piston, arm, wheel = range(3)

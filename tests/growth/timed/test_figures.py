@@ -78,6 +78,12 @@ def test_surfaces_are_mixed_by_weight_and_forgotten() -> None:
     assert not any(shape.closed for shape in drawing.shapes)
 
 
+def test_weights_under_0_count_as_0() -> None:
+    surfaces = "surface flat(u, v) = u, v, 0\nsurface bent(u, v) = u, v, 4*u*u\n"
+    drawing = drawn(surfaces + "axiom bent ~ bent(2) flat(-1) ~")
+    assert drawing.which.tolist() == [0, 0]
+
+
 def test_weights_are_part_of_the_state() -> None:
     text = "surface a(u, v) = u, v, 0\nsurface b(u, v) = u, v, 1\naxiom a [ b ~ ~ ] ~"
     drawing = drawn(text)

@@ -246,3 +246,10 @@ def test_any_word_is_drawn_or_refused(system: TimedSystem, commands: list[str], 
 def test_a_symbol_by_an_equiv_may_have_parameters_of_its_own() -> None:
     drawing = drawn("equiv F limb\naxiom limb(2, 7)")
     np.testing.assert_allclose(drawing.tips, [(0.0, 0.0, 2.0)])
+
+
+def test_a_surface_has_each_edge_once_in_ascending_order() -> None:
+    surface = drawn("F sphere(1) [ +(40) cC(1, 0) ^(30) cC(1) ] { f +(90) f +(90) f }").surface()
+    rings = surface.face_vertices.reshape(-1, 3)
+    pairs = {(min(a, b), max(a, b)) for ring in rings.tolist() for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
+    assert surface.edges.tolist() == [list(pair) for pair in sorted(pairs)]
