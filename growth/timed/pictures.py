@@ -18,14 +18,18 @@ if TYPE_CHECKING:
 LINE: Final = 0.25
 """How dark the lines at creases are; parts are many."""
 
+AZIMUTH: Final = -62.0
+ELEVATION: Final = 14.0
+"""Where the viewer stands, in degrees."""
+
 
 def picture(
     drawing: Drawing,
     size: tuple[int, int] = (1000, 750),
     window: Floats | None = None,
     *,
-    azimuth: float = -62.0,
-    elevation: float = 14.0,
+    azimuth: float = AZIMUTH,
+    elevation: float = ELEVATION,
 ) -> Image:
     """Draw a drawing.
 

@@ -7,16 +7,24 @@ import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from genome.errors import InputError
+from growth.camera import looking_at
 from growth.timed.drawing import Drawing
-from growth.timed.pictures import bounds, picture
+from growth.timed.pictures import AZIMUTH, ELEVATION, bounds, picture
+from growth.timed.tables import Floats
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 SIZE: Final = (480, 360)
 SHEET_SIZE: Final = (320, 240)
-"""Pixels of a picture, and of one of a contact sheet."""
+"""Pixels of a picture, and of one of a contact sheet; as many in another shape where a form is tall, or long."""
+
+TALLEST: Final = 3 / 4
+LONGEST: Final = 2.0
+"""Width over height of pictures."""
 
 SHOWN: Final = 20
 """The most pictures of a contact sheet."""
@@ -30,6 +38,13 @@ LEAST: Final = 20
 def pictures(drawings: Sequence[Drawing], size: tuple[int, int] = SIZE) -> list[Image]:
     """Draw all, each with the room that all of them need; one without parts is empty paper.
 
+    Parameters
+    ----------
+    drawings
+        One or more.
+    size
+        Pixels. Pictures have as many, in a shape that goes with what all drawings need.
+
     Raises
     ------
     InputError
@@ -40,6 +55,7 @@ def pictures(drawings: Sequence[Drawing], size: tuple[int, int] = SIZE) -> list[
     window = bounds(*drawings)
     if window is None:
         raise InputError("picture", "a drawing with a part", "none", "the word draws nothing at these times")
+    size = _shaped(window, size)
     return [picture(one, size, window) if len(one) else Image.new("RGB", size, PAPER) for one in drawings]
 
 
@@ -74,17 +90,28 @@ def contact_sheet(drawings: Sequence[Drawing], title: str) -> Image:
 
     count = min(SHOWN, len(drawings))
     chosen = [drawings[round(place * (len(drawings) - 1) / max(count - 1, 1))] for place in range(count)]
-    wide, tall = SHEET_SIZE
+    images = pictures(chosen, SHEET_SIZE)
+    wide, tall = images[0].size
     columns = min(COLUMNS, count)
     rows = -(-count // columns)
     sheet = Image.new("RGB", (columns * wide, 34 + rows * (tall + 20)), "#ffffff")
     pen = ImageDraw.Draw(sheet)
     pen.text((8, 8), title, "#1a1a1a", _font(16))
-    for place, (one, image) in enumerate(zip(chosen, pictures(chosen, SHEET_SIZE), strict=True)):
+    for place, (one, image) in enumerate(zip(chosen, images, strict=True)):
         left, top = place % columns * wide, 34 + place // columns * (tall + 20)
         sheet.paste(image, (left, top))
         pen.text((left + 8, top + tall + 2), f"t = {one.time:.4g}", "#6b6b6b", _font(12))
     return sheet
+
+
+def _shaped(window: Floats, size: tuple[int, int]) -> tuple[int, int]:
+    """Give a size of about as many pixels, as wide to its height as the window is seen to be, within limits."""
+    corners = np.array(list(itertools.product(*window.T)))
+    wide, tall, _ = np.ptp(corners @ looking_at(corners, size, AZIMUTH, ELEVATION).axes.T, axis=0).tolist()
+    shape = min(max(wide / max(tall, 1e-300), TALLEST), LONGEST)
+    pixels = size[0] * size[1]
+    height = round((pixels / shape) ** 0.5)
+    return round(pixels / height), height
 
 
 def _lasts(drawings: Sequence[Drawing]) -> list[int]:

@@ -265,7 +265,10 @@ def test_pictures_of_all_times_share_one_camera_and_a_gif_goes_round() -> None:
     drawings = drawn("axiom F(1)\ng F(l, age) = 1 + age", [0.0, 0.5, 1.0])
     image = Image.open(BytesIO(gif(drawings)))
     assert (image.n_frames, image.info["loop"], image.info["duration"]) == (3, 0, 500)
-    assert contact_sheet(drawings, "one").size == (960, 34 + 240 + 20)
+    # A column is tall: three by four. What is long is two by one at the most.
+    assert image.size == (360, 480)
+    assert contact_sheet(drawings, "one").size == (3 * 240, 34 + 320 + 20)
+    assert contact_sheet(drawn("axiom &(90) F(9)", [0.0]), "long").size == (392, 34 + 196 + 20)
     empty = drawn("axiom A\nA @ 1 -> F(1)", [0.0, 2.0])
     assert Image.open(BytesIO(gif(empty))).n_frames == 2
 
