@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, Final, final
+from typing import TYPE_CHECKING, Any, ClassVar, Final, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,11 @@ from islands.individual import Evaluation
 from islands.kinds.measures import Criteria, Scoring
 from islands.kinds.meshes import MESH, mesh_text
 from islands.kinds.protocol import Facts, Keep
-from islands.migration.channel import ChannelKind
+from islands.migration.channel import ChannelKind, Migrant
 from islands.spec import IslandSpec
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 COSTLY: Final = ("smoothness", "surface", "symmetry")
 """Criteria that take longer than all others together, and are measured where they have a goal."""
@@ -131,6 +134,14 @@ class TimedBiology:
             _write(genotype, found, path, facts)
             files.append(path)
         return files
+
+    def picture(self, genotype: TimedGenotype, partners: tuple[Migrant, ...], size: tuple[int, int]) -> Image | None:
+        """Draw the form at the time at which it is judged; see :class:`islands.kinds.protocol.Pictured`."""
+        from growth.timed.pictures import picture
+
+        del partners  # timed forms have none
+        found = self._unfolded(genotype)
+        return None if isinstance(found, Failure) else picture(found.form, size)
 
     def _unfolded(self, genotype: TimedGenotype) -> Unfolding | Failure:
         return unfold(genotype.system, self._growth, genotype.seed, self._clock)
