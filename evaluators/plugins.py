@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from importlib.metadata import EntryPoint, entry_points
 
@@ -42,9 +42,7 @@ def guarded(where: str, expected: str, what: str) -> Iterator[None]:
         raise InputError(where, expected, f"{what}, which raised {told(error)}") from error
 
 
-def find(
-    name: str, where: str, what: str, registry: Mapping[str, object], group: str, later: Sequence[str] = ()
-) -> object:
+def find(name: str, where: str, what: str, registry: Mapping[str, object], group: str) -> object:
     """Find an object by the name that an experiment gives it.
 
     Parameters
@@ -60,8 +58,6 @@ def find(
         The project's own: the objects, or import paths of those that are imported when first used.
     group
         The entry points' group.
-    later
-        Names that are known but not built yet.
 
     Raises
     ------
@@ -79,17 +75,14 @@ def find(
     if ":" in name:
         raise InputError(where, f"{_article(what)}'s name or an import path 'package.module:object'", describe(name))
     known = sorted({*registry, *installed.names})
-    if name in later:
-        got, remedy = f"{describe(name)}, which comes with a later version", f"known now: {', '.join(known)}"
-        raise InputError(where, f"{_article(what)} that is built", got, remedy)
-    raise InputError(where, _article(what), describe(name), near(name, [*known, *later]))
+    raise InputError(where, _article(what), describe(name), near(name, known))
 
 
 def find_function(
-    name: str, where: str, what: str, registry: Mapping[str, object], group: str, later: Sequence[str] = ()
+    name: str, where: str, what: str, registry: Mapping[str, object], group: str
 ) -> Callable[..., object]:
     """Find something that can be called; as :func:`find` otherwise."""
-    found = find(name, where, what, registry, group, later)
+    found = find(name, where, what, registry, group)
     if not callable(found):
         got = f"{describe(name)}, {_article(type(found).__name__)}"
         raise InputError(where, f"{_article(what)} that can be called", got)

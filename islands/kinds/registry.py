@@ -18,12 +18,10 @@ KINDS: Final = {
     "route": "islands.kinds.route:RouteKind",
     "space": "islands.kinds.space:SpaceKind",
     "surface": "islands.kinds.surface:SurfaceKind",
+    "timed": "islands.kinds.timed:TimedKind",
     "zone": "islands.kinds.zone:ZoneKind",
 }
 """Built kinds and where they stand; imported when first used."""
-
-LATER: Final = ("timed",)
-"""Kinds that the experiment format knows and that are not built yet."""
 
 GROUP: Final = "atoll.kinds"
 
@@ -36,7 +34,7 @@ def resolve_kind(name: str, where: str) -> Kind:
     InputError
         When there is none, or what is there is no island kind.
     """
-    found = find(name, where, "island kind", KINDS, GROUP, LATER)
+    found = find(name, where, "island kind", KINDS, GROUP)
     kind = found() if isinstance(found, type) else found
     if not isinstance(kind, Kind):
         missing = [part for part in ("name", "genome", "growth", "build", "keep_files") if not hasattr(kind, part)]

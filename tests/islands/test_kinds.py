@@ -18,11 +18,12 @@ from islands.kinds.block_pair import BlockPairKind
 from islands.kinds.blocks import BlocksKind
 from islands.kinds.enclosure import EnclosureKind
 from islands.kinds.protocol import Biology, Kind
-from islands.kinds.registry import KINDS, LATER, resolve_kind
+from islands.kinds.registry import KINDS, resolve_kind
 from islands.kinds.room import RoomKind
 from islands.kinds.route import RouteKind
 from islands.kinds.space import SpaceKind
 from islands.kinds.surface import SurfaceKind
+from islands.kinds.timed import TimedKind
 
 SURFACE = {
     "kind": "surface",
@@ -32,6 +33,12 @@ SURFACE = {
 }
 LOADED = {"growth": {"max_blocks": 80, "load": {"axial_strength": 90}}, "fitness": {"height": {"goal": "maximise"}}}
 CELLS = {"genome": {}, "growth": {"max_blocks": 80}, "fitness": {"evenness": {"goal": "maximise"}}}
+TIMED = {
+    "kind": "timed",
+    "genome": {"system": "flower", "numbers": {"FORK": [10, 60]}},
+    "growth": {"time": 8.0, "samples": 3, "max_modules": 2000, "max_events": 20_000},
+    "fitness": {"size": {"goal": "maximise"}},
+}
 EVERY = [
     (BitsKind, {}),
     (SurfaceKind, SURFACE),
@@ -42,6 +49,7 @@ EVERY = [
     (SpaceKind, {"kind": "space", **CELLS}),
     (RoomKind, {"kind": "room", "genome": {"cells": 9}, "growth": {}, "fitness": {"corners": {"goal": "minimise"}}}),
     (SuppliedHouseKind, SUPPLIED_HOUSE),
+    (TimedKind, TIMED),
 ]
 
 
@@ -178,12 +186,7 @@ def test_forms_are_written_under_the_stem(biology, tmp_path) -> None:
     assert all(path.is_file() and path.name.startswith(("a.b-1.", "a.b-1-part")) for path in files)
 
 
-def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_entry_point(
-    tmp_path, monkeypatch
-) -> None:
-    for name in LATER:
-        with pytest.raises(InputError, match=f"'{name}', which comes with a later version"):
-            resolve_kind(name, "here")
+def test_kinds_are_found_by_name_by_import_path_and_by_entry_point(tmp_path, monkeypatch) -> None:
     assert isinstance(resolve_kind("bits:BitsKind", "here"), BitsKind)
     assert {resolve_kind(name, "here").name for name in KINDS} == set(KINDS)
     names = {
@@ -195,8 +198,8 @@ def test_later_kinds_are_refused_by_name_and_plug_ins_found_by_import_path_and_e
     assert {resolve_kind(name, "here").name for name in ("words", "extra")} == {"bits"}
     assert resolve_kind("surface", "here").name == "surface"
     known = sorted({*KINDS, "words", "extra"})
-    with pytest.raises(InputError, match=f"known now: {', '.join(known)}"):
-        resolve_kind("timed", "here")
+    with pytest.raises(InputError, match=f"an island kind, got 'sprawl'; known: {', '.join(known)}"):
+        resolve_kind("sprawl", "here")
 
 
 @pytest.fixture

@@ -129,7 +129,7 @@ MISTAKES = [
     ("hosts", True, "hosts: expected 'auto' or a number of at least 1, got True"),
     ("islands", {}, "islands: expected"),
     ("islands.north.population", 0, "islands.north.population: expected greater than or equal to 1, got 0"),
-    ("islands.north.kind", "timed", "islands.north.kind: expected an island kind that is built, got 'timed'"),
+    ("islands.north.kind", "times", "islands.north.kind: expected an island kind, got 'times'; did you mean 'timed'?"),
     ("islands.north.kind", "surfaces", "expected an island kind, got 'surfaces'; did you mean 'surface'?"),
     ("islands.north.kind", "bits:Nothing", "an island kind that can be imported, got 'bits:Nothing', which does not"),
     ("islands.north.kind", "nowhere.at.all:X", "'nowhere.at.all:X', which does not import (ModuleNotFoundError"),

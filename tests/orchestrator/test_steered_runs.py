@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from helm import Helmsman
 
 from experiments import Silent, bits, write
 from genome.errors import InputError
@@ -27,24 +28,6 @@ from orchestrator.steering.mailbox import post
 def _one_epoch_a_call(monkeypatch) -> None:
     """However quick the machine, a command that comes at an epoch's end takes effect a few epochs later."""
     monkeypatch.setattr("orchestrator.archipelago.CALL_S", 0.0)
-
-
-class Helmsman(Silent):
-    """Leaves letters once an epoch is done."""
-
-    def __init__(self, letters: Mapping[int, list[Request]]) -> None:
-        self.letters, self.store, self.notes = dict(letters), None, []
-
-    def begin(self, plan: Any, experiment: Any, folder: Store) -> None:
-        self.store = folder
-
-    def epoch(self, epoch: int, rows: Any) -> None:
-        for at in [at for at in self.letters if at <= epoch]:
-            for place, request in enumerate(self.letters.pop(at)):
-                post(self.store, request, f"2026-01-01T00:00:{at:02d}.{place:03d}+00:00", "test")
-
-    def note(self, text: str) -> None:
-        self.notes.append(text)
 
 
 def steered(tmp_path: Path, letters: Mapping[int, list[Request]], **changes: Any) -> tuple[RunFolder, Helmsman, str]:
