@@ -220,7 +220,7 @@ class TestTheShippedAnimal:
         haphazard = GAIT
         for own_phase in ("[ +(pi/2) leg(phi,", "[ -(pi/2) leg(phi + pi,"):
             assert own_phase in haphazard
-            haphazard = haphazard.replace(own_phase, f"{own_phase[:13]}random(0, 2*pi),")
+            haphazard = haphazard.replace(own_phase, f"{own_phase[:14]}random(0, 2*pi),")
         own = walked(GAIT)
         for seed in range(6):
             stride, evenness, _ = walked(haphazard, seed=seed)
