@@ -25,6 +25,7 @@ NAMES: Final = (
     "blocks_loads",
     "timed_rewriting",
     "timed_turtle",
+    "timed_animation",
     "symbiosis_measures",
     "space_syntax",
     "houses",

@@ -32,7 +32,7 @@ class Gait(NamedTuple):
         (n, k) bool, whether they are on it.
     pushes
         (n - 1, k) float64, how far each moves against the body's heading from a sample to the next, on the ground at
-        both; 0 where it is not.
+        both; 0 where it is not, and of feet that are never in the air.
     """
 
     heights: Floats
@@ -43,7 +43,8 @@ class Gait(NamedTuple):
 def gait_of(unfolding: Unfolding) -> Gait | None:
     """Find the feet of a form and how they move.
 
-    The body's heading is the level direction against which standing feet move, all in all.
+    The body's heading is the level direction against which standing feet move, all in all. A foot that is on the ground
+    at all samples takes no step: what grows, or is dragged, along the ground moves no body, however far it goes.
 
     Returns
     -------
@@ -59,7 +60,8 @@ def gait_of(unfolding: Unfolding) -> Gait | None:
     stands = heights <= SOLE * size
     feet = stands.any(axis=0)
     heights, stands = heights[:, feet], stands[:, feet]
-    moves = np.diff(tracks[:, feet, :2], axis=0) * (stands[1:] & stands[:-1])[:, :, None]
+    steps = stands[1:] & stands[:-1] & ~stands.all(axis=0)
+    moves = np.diff(tracks[:, feet, :2], axis=0) * steps[:, :, None]
     drift = moves.sum(axis=(0, 1))
     length = float(np.hypot(*drift))
     way = drift / length if length > LEAST * size else np.zeros(2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Final
 
 from pydantic import Field, model_validator
 
@@ -10,7 +10,7 @@ from genome.errors import InputError
 from growth.timed.settings import TimedGrowth
 from growth.timed.turtle.settings import TurtleSettings
 
-MOST_SAMPLES = 10_000
+MOST_SAMPLES: Final = 10_000
 
 
 class TimedForm(TimedGrowth):

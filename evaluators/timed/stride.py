@@ -10,7 +10,7 @@ def stride(unfolding: Unfolding) -> float:
     """Give how far feet go back on the ground from one touchdown to the next, in the mean over the feet.
 
     Back is against the body's heading (:func:`~evaluators.timed.gait.gait_of`). A foot that goes forward on the ground
-    takes back what it has pushed, one that is dragged along pushes nothing, and feet that push different ways take from
+    takes back what it has pushed, one that is never lifted pushes nothing, and feet that push different ways take from
     each other. How far a foot goes between a sample in the air and one on the ground does not count: samples must be
     dense to a step. The window is best a whole number of cycles, or some steps count in part.
 

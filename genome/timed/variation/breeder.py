@@ -92,8 +92,12 @@ class Breeder:
 
     def random(self, rng: np.random.Generator) -> TimedGenotype:
         """Draw a genotype: the file's system, its numbers drawn within their bounds, some successors written anew."""
-        drawn = self._numbers.drawn(self.system, rng)
-        system = drawn if self.may_be(drawn) else self.system
+        system = self.system
+        for _ in range(TRIES):
+            drawn = self._numbers.drawn(self.system, rng)
+            if self.may_be(drawn):
+                system = drawn
+                break
         for at, production in enumerate(system.productions):
             if production.predecessor.symbol in self.symbols and rng.random() < self._settings.rewritten:
                 system = self._after("rewrite", system, at, rng) or system

@@ -23,7 +23,7 @@ UPRIGHT: Final = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 """Turns z up to the y up of glTF, (x, y, z) to (x, z, -y)."""
 
 STILL: Final = 1e-7
-"""What changes less, of the largest of it, does not move."""
+"""What changes less, of the largest of it (of a whole, for rotations), does not move."""
 
 
 def animated_glb(drawings: Sequence[Drawing], extras: Mapping[str, Any] | None = None) -> bytes:
@@ -98,7 +98,7 @@ class _Scene:
     def _move(self, number: int, node: dict[str, Any], segment: Segment, places: Places) -> None:
         """Give a node its place, and channels for what of it changes."""
         for path, values in zip(("translation", "rotation", "scale"), places, strict=True):
-            least = STILL * max(1.0, float(np.abs(values).max(initial=0.0)))
+            least = STILL * (1.0 if path == "rotation" else float(np.abs(values).max(initial=0.0)))
             node[path] = [float(value) for value in values[0].astype(np.float32)]
             if float(np.abs(values - values[0]).max(initial=0.0)) > least:
                 self._channel(number, path, self._span(segment), values, "LINEAR")

@@ -32,7 +32,7 @@ class Buffer:
     def __init__(self) -> None:
         self._parts: Final[list[bytes]] = []
         self._size = 0
-        self._known: Final[dict[tuple[bytes, str, int, int | None], int]] = {}
+        self._known: Final[dict[tuple[bytes, str, int, int | None, bool], int]] = {}
         self.views: Final[list[dict[str, Any]]] = []
         self.accessors: Final[list[dict[str, Any]]] = []
 
@@ -51,7 +51,7 @@ class Buffer:
     def _keep(self, values: NDArray[Any], target: int | None, *, bounded: bool = False) -> int:
         data = values.tobytes()
         width = values.shape[1] if values.ndim == 2 else 1
-        key = (data, values.dtype.str, width, target)
+        key = (data, values.dtype.str, width, target, bounded)
         if key in self._known:
             return self._known[key]
         view: dict[str, Any] = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}

@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from growth.bodies import smooth_body
-from growth.forms import newell_normals
 from growth.timed.drawing import Shape
 from growth.timed.tables import Floats, Ints
 
@@ -47,8 +46,10 @@ def normals_of(vertices: Floats, shape: Parted) -> Floats:
     shape
         How it is parted.
     """
-    flat = newell_normals(vertices[shape.sources][shape.triangles])
-    total = np.zeros((len(shape.sources), 3))
-    np.add.at(total, shape.triangles.reshape(-1), np.repeat(flat, 3, axis=0))
+    a, b, c = vertices[shape.sources].T[:, shape.triangles.T].swapaxes(0, 1)
+    (px, py, pz), (qx, qy, qz) = b - a, c - a
+    flat = np.stack([py * qz - pz * qy, pz * qx - px * qz, px * qy - py * qx])
+    corners, count = shape.triangles.reshape(-1), len(shape.sources)
+    total = np.stack([np.bincount(corners, np.repeat(along, 3), count) for along in flat], axis=1)
     length = np.linalg.norm(total, axis=1, keepdims=True)
     return np.asarray(np.where(length > 0.0, total / np.where(length > 0.0, length, 1.0), [0.0, 0.0, 1.0]))

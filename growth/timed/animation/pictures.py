@@ -59,8 +59,8 @@ def pictures(drawings: Sequence[Drawing], size: tuple[int, int] = SIZE) -> list[
     return [picture(one, size, window) if len(one) else Image.new("RGB", size, PAPER) for one in drawings]
 
 
-def gif(drawings: Sequence[Drawing]) -> bytes:
-    """Draw all as a GIF that goes round for ever; a unit of time is a second.
+def gif(drawings: Sequence[Drawing], size: tuple[int, int] = SIZE) -> bytes:
+    """Draw all as a GIF that goes round for ever; a unit of time is a second; ``size`` as of :func:`pictures`.
 
     Raises
     ------
@@ -69,7 +69,7 @@ def gif(drawings: Sequence[Drawing]) -> bytes:
     """
     from PIL.Image import Dither
 
-    images = pictures(drawings)
+    images = pictures(drawings, size)
     # One palette for all, so that what stands still does not flicker.
     palette = _side_by_side(images[:: max(1, len(images) // 12)]).quantize(256)
     frames = [image.quantize(palette=palette, dither=Dither.NONE) for image in images]
@@ -78,8 +78,10 @@ def gif(drawings: Sequence[Drawing]) -> bytes:
     return stream.getvalue()
 
 
-def contact_sheet(drawings: Sequence[Drawing], title: str) -> Image:
+def contact_sheet(drawings: Sequence[Drawing], title: str, size: tuple[int, int] = SHEET_SIZE) -> Image:
     """Draw up to 20 of the drawings side by side, evenly chosen, the first and the last among them.
+
+    ``size`` is that of each, as of :func:`pictures`.
 
     Raises
     ------
@@ -90,7 +92,7 @@ def contact_sheet(drawings: Sequence[Drawing], title: str) -> Image:
 
     count = min(SHOWN, len(drawings))
     chosen = [drawings[round(place * (len(drawings) - 1) / max(count - 1, 1))] for place in range(count)]
-    images = pictures(chosen, SHEET_SIZE)
+    images = pictures(chosen, size)
     wide, tall = images[0].size
     columns = min(COLUMNS, count)
     rows = -(-count // columns)

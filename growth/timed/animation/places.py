@@ -20,7 +20,7 @@ class Places(NamedTuple):
         (k, 4) float64, unit quaternions x, y, z, w; each on the side of the one before, so that between two the
         shorter way is gone.
     scales
-        (k, 3) float64, not negative.
+        (k, 3) float64; all under 0 where the frame is mirrored, as that of a surface with a scale under 0.
     """
 
     translations: Floats
@@ -35,17 +35,18 @@ def places_of(frames: Floats) -> Places:
     or is completed at right angles to the others.
     """
     axes = frames[:, :3, :3]
-    scales = np.linalg.norm(axes, axis=1)
+    mirrored = np.linalg.det(axes) < 0.0
+    scales = np.linalg.norm(axes, axis=1) * np.where(mirrored, -1.0, 1.0)[:, None]
     turns = _completed(axes, scales)
     return Places(frames[:, :3, 3].copy(), _continuous(_quaternions(turns)), scales)
 
 
 def _completed(axes: Floats, scales: Floats) -> Floats:
     """Give rotations (k, 3, 3) of axes in columns, of which some may have no length."""
-    turns = np.array(axes / np.where(scales > 0.0, scales, 1.0)[:, None, :])
+    turns = np.array(axes / np.where(scales == 0.0, 1.0, scales)[:, None, :])
     before = np.eye(3)
-    for row in np.flatnonzero((scales <= 0.0).any(axis=1)):
-        turn, gone = turns[row], scales[row] <= 0.0
+    for row in np.flatnonzero((scales == 0.0).any(axis=1)):
+        turn, gone = turns[row], scales[row] == 0.0
         before = turns[row - 1] if row else before
         if gone.sum() == 1:
             (axis,) = np.flatnonzero(gone)

@@ -134,8 +134,10 @@ def test_modules_are_born_before_they_die_where_both_ages_are_constants() -> Non
     bred = [breeds.random(rng) for _ in range(60)]
     bred += [breeds.mutate(one, rng) for one in bred]
     assert all(stillborn(one.system) == () for one in bred)
-    lives = [define_values(one.system)["L"] for one in bred]
+    breeds = breeder(late, {"L": [0.1, 3]}, literals=1.0, rewritten=0.0)
+    lives = [define_values(breeds.random(rng).system)["L"] for _ in range(60)]
     assert min(lives) > 0.5, "under it the ages of B are over its terminal age"
+    assert 1.0 not in lives, "another draw, not the file's own, takes the place of one that may not be"
 
 
 def test_constants_are_those_of_plain_arithmetic() -> None:

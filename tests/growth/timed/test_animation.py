@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation, Slerp
 
@@ -20,6 +20,7 @@ from genome.errors import InputError
 from genome.timed import parse_tl
 from growth.timed import begin
 from growth.timed.animation import animated_glb, contact_sheet, gif, segments, write_drawings
+from growth.timed.animation.gltf import Buffer
 from growth.timed.animation.places import places_of
 from growth.timed.drawing import Drawing, Shape
 from growth.timed.turtle import draw
@@ -257,20 +258,28 @@ def test_the_khronos_validator_has_nothing_to_say(tmp_path: Path) -> None:
         assert (issues["numErrors"], issues["numWarnings"], issues["numInfos"]) == (0, 0, 0), issues
 
 
-def test_pictures_of_all_times_share_one_camera_and_a_gif_goes_round() -> None:
+def test_pictures_have_the_shape_of_what_they_show_and_a_gif_goes_round() -> None:
     from io import BytesIO
 
     from PIL import Image
 
-    drawings = drawn("axiom F(1)\ng F(l, age) = 1 + age", [0.0, 0.5, 1.0])
-    image = Image.open(BytesIO(gif(drawings)))
-    assert (image.n_frames, image.info["loop"], image.info["duration"]) == (3, 0, 500)
-    # A column is tall: three by four. What is long is two by one at the most.
-    assert image.size == (360, 480)
-    assert contact_sheet(drawings, "one").size == (3 * 240, 34 + 320 + 20)
-    assert contact_sheet(drawn("axiom &(90) F(9)", [0.0]), "long").size == (392, 34 + 196 + 20)
+    small = (64, 48)
+    drawings = drawn("axiom F(1)\ng F(l, age) = 1 + age", [0.0, 0.5])
+    image = Image.open(BytesIO(gif(drawings, small)))
+    assert (image.n_frames, image.info["loop"], image.info["duration"]) == (2, 0, 500)
+    # A column is tall: three by four. What is long is two by one at the most. Both have as many pixels.
+    assert image.size == (48, 64)
+    assert contact_sheet(drawings, "one", small).size == (2 * 48, 34 + 64 + 20)
+    assert contact_sheet(drawn("axiom &(90) F(9)", [0.0]), "long", small).size == (79, 34 + 39 + 20)
+
+
+def test_an_animation_can_begin_with_nothing() -> None:
+    from io import BytesIO
+
+    from PIL import Image
+
     empty = drawn("axiom A\nA @ 1 -> F(1)", [0.0, 2.0])
-    assert Image.open(BytesIO(gif(empty))).n_frames == 2
+    assert Image.open(BytesIO(gif(empty, (16, 12)))).n_frames == 2
 
 
 def test_several_files_are_written_together_or_not_at_all(tmp_path: Path) -> None:
@@ -287,3 +296,74 @@ def test_several_files_are_written_together_or_not_at_all(tmp_path: Path) -> Non
     with pytest.raises(InputError, match="a form with parts at each time, got none at time 0; begin later"):
         write_drawings([*nothing, *drawings], tmp_path / "c.obj", "c.tl")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a-0000.stl", "a-0001.stl", "b-0001.stl"]
+
+
+def matched(found: list[np.ndarray], wanted: list[np.ndarray], within: float) -> None:
+    """Compare sets of parts, each with its own among those that are left."""
+    left = list(found)
+    for part in wanted:
+        near = [at for at, one in enumerate(left) if one.shape == part.shape and np.abs(one - part).max() <= within]
+        assert near, "a part is shown nowhere near its place"
+        left.pop(near[0])
+    assert not left
+
+
+PIECES = ("F(1)", "f(0.5)", "sphere(0.4)", "disc(0.2, 0.6)", "+(40)", "&(70)", "/(100)", "leaf(1) ~(1)", "!(0.3)",
+          "cC(1, 0) ^(30) cC(1, 1)", "[ F(0.5) ]", "{ f(1) +(90) f(1) +(90) f(1) }", "colour(1, 0, 0)",
+          "late")  # fmt: skip
+GROWN = """surface leaf(u, v) = u, v - 0.3, 0.2*u*u
+late @ 0.75 -> sphere(0.7)
+g F(l, age) = 1 - age
+g cC(l, c, age) = 1 + age
+g ~(s, age) = 1 - age
+g sphere(r, age) = 1.2 - age
+g +(a, age) = age
+"""
+
+
+@settings(max_examples=25)
+@given(st.lists(st.sampled_from(PIECES), min_size=1, max_size=8))
+def test_whatever_is_drawn_is_in_the_file_at_its_time_grown_through_nothing_too(pieces: list[str]) -> None:
+    # What grows goes through nothing at 1, and is turned inside out after it, where it can be.
+    drawings = drawn(f"axiom F(1) {' '.join(pieces)}\n{GROWN}", [0.0, 0.5, 1.0, 1.5])
+    file = File(animated_glb(drawings))
+    for accessor in (*inputs(file), *positions(file)):
+        assert {"min", "max"} <= set(file.json["accessors"][accessor])
+    for drawing in drawings:
+        matched(file.at(drawing.time), triangles(drawing), 1e-5)
+
+
+def inputs(file: File) -> list[int]:
+    return [one["input"] for animation in file.json.get("animations", []) for one in animation["samplers"]]
+
+
+def positions(file: File) -> list[int]:
+    parts = [mesh["primitives"][0] for mesh in file.json["meshes"]]
+    told = [part["attributes"] for part in parts] + [target for part in parts for target in part.get("targets", [])]
+    return [one["POSITION"] for one in told]
+
+
+def test_numbers_that_are_kept_once_still_have_the_bounds_that_one_use_of_them_wants() -> None:
+    buffer = Buffer()
+    weights = buffer.floats(np.array([0.0, 1.0]))
+    times = buffer.floats(np.array([0.0, 1.0]), bounded=True)
+    assert times == buffer.floats(np.array([0.0, 1.0]), bounded=True)
+    assert (buffer.accessors[times]["min"], buffer.accessors[times]["max"]) == ([0.0], [1.0])
+    assert "min" not in buffer.accessors[weights]
+
+
+def test_a_mirrored_surface_passes_through_nothing_and_does_not_turn() -> None:
+    text = "surface leaf(u, v) = u, v - 0.3, 0.2*u*u\naxiom f(1) +(20) leaf(1) ~(1)\ng ~(s, age) = 1 - age"
+    drawings = drawn(text, [0.0, 0.5, 1.5, 2.0])
+    places = places_of(np.concatenate([drawing.frames for drawing in drawings]))
+    assert places.scales[:, 0] == pytest.approx([1.0, 0.5, -0.5, -1.0])
+    assert np.ptp(places.rotations, axis=0) == pytest.approx(0.0, abs=1e-12)
+    (shown,) = File(animated_glb(drawings)).at(0.75)
+    assert shown.reshape(-1, 3) == pytest.approx(drawn(text, [0.75])[0].surface().vertices[
+        drawings[0].shapes[0].triangles.reshape(-1)], abs=1e-6)  # fmt: skip
+
+
+def test_what_is_small_moves_as_well() -> None:
+    file = File(animated_glb(drawn("axiom !(1e-9) F(1e-8)\ng F(l, age) = 1 + age", [0.0, 1.0])))
+    (shown,) = file.at(1.0)
+    assert np.ptp(shown[..., 2]) == pytest.approx(2e-8, rel=1e-5)
