@@ -26,4 +26,7 @@ def read_form(path: Path) -> Mesh:
         raise InputError(str(path), "a mesh with faces", "none")
     if not np.isfinite(vertices).all():
         raise InputError(str(path), "finite coordinates", "NaN or infinity", "repair the file")
-    return Mesh(np.ascontiguousarray(vertices), triangles.astype(np.int32))
+    # Parts of an animation that are not there at its end have no extent: they are no part of the form.
+    corners = vertices[triangles]
+    kept = (corners != corners[:, :1]).any(axis=(1, 2))
+    return Mesh(np.ascontiguousarray(vertices), triangles[kept].astype(np.int32))

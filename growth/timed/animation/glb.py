@@ -2,7 +2,8 @@
 
 A part that only moves is a node with translation, rotation and scale; equal shapes are one mesh. Vertices that move
 within a part are morph targets, one for each drawing that differs. What is born or dies in between is shown and hidden
-by the scale of a node above it, at once. Between two drawings all is interpolated.
+by the scale of a node above it, at once. Between two drawings all is interpolated. Programs that play no animation show
+the last drawing.
 """
 
 from __future__ import annotations
@@ -89,7 +90,8 @@ class _Scene:
         top = number
         if segment.first > 0 or segment.last < len(self._times) - 1:
             top = len(self._nodes)
-            self._nodes.append({"name": f"{name}-life", "children": [number]})
+            there = [float(segment.last == len(self._times) - 1)] * 3
+            self._nodes.append({"name": f"{name}-life", "children": [number], "scale": there})
             self._gate(top, segment)
         self._nodes[0]["children"].append(top)
 
@@ -99,7 +101,7 @@ class _Scene:
         """Give a node its place, and channels for what of it changes."""
         for path, values in zip(("translation", "rotation", "scale"), places, strict=True):
             least = STILL * (1.0 if path == "rotation" else float(np.abs(values).max(initial=0.0)))
-            node[path] = [float(value) for value in values[0].astype(np.float32)]
+            node[path] = [float(value) for value in values[-1].astype(np.float32)]
             if float(np.abs(values - values[0]).max(initial=0.0)) > least:
                 self._channel(number, path, self._span(segment), values, "LINEAR")
 
@@ -137,7 +139,7 @@ class _Scene:
 
     def _mesh(self, segment: Segment) -> int:
         """Give the number of a segment's mesh; what stands still shares it with its likes."""
-        base = segment.shapes[0]
+        base = segment.shapes[-1]
         material = self._material(segment.colour, closed=base.closed)
         key = (base.vertices.tobytes(), base.triangles.tobytes(), material)
         if len(segment.shapes) == 1 and key in self._known:
@@ -164,8 +166,8 @@ class _Scene:
         }
 
     def _targets(self, shapes: Sequence[Shape], shape: Parted) -> list[dict[str, int]]:
-        """Give how vertices and normals differ from the first shape's, in each shape that differs."""
-        base, straight = shapes[0].vertices, normals_of(shapes[0].vertices, shape)
+        """Give how vertices and normals differ from the last shape's, in each shape that differs."""
+        base, straight = shapes[-1].vertices, normals_of(shapes[-1].vertices, shape)
         found: list[dict[str, int]] = []
         for at, place in zip(shapes, _distinct(shapes), strict=True):
             if place > len(found):
@@ -193,8 +195,8 @@ class _Scene:
 
 
 def _distinct(shapes: Sequence[Shape]) -> list[int]:
-    """Give each shape a number by its vertices, in the order in which they come; the first has 0."""
-    known: dict[bytes, int] = {}
+    """Give each shape a number by its vertices, in the order in which they come; those like the last have 0."""
+    known = {shapes[-1].vertices.tobytes(): 0}
     return [known.setdefault(shape.vertices.tobytes(), len(known)) for shape in shapes]
 
 
