@@ -12,7 +12,7 @@ help:            ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed 's/:.*##/\t/' | expand -t 18
 
 run: $(RUN_READY)  ## run the main job and say where its results are
-	@$(BIN)/atoll run experiments/drape.yaml
+	@$(BIN)/atoll run experiments/archipelago.yaml
 
 test: $(TEST_READY)  ## checkers, then the test suite
 	@$(MAKE) --no-print-directory lint

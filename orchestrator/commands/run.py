@@ -120,6 +120,7 @@ def _tell(folder: Store, status: str, best: dict[str, object] | None) -> None:
         click.echo(f"forms: {shown}/forms")
     click.echo(f"log: {shown}/log (Parquet)")
     atoll = _called()
+    click.echo(f"look: {atoll} report {shown}  (one HTML file; {atoll} sheet {shown} draws its forms)")
     click.echo(f"next: {atoll} show {shown}")
     sql = "select island, max(fitness) from individuals group by island"
     click.echo(f'      {atoll} query {shown} "{sql}"')
