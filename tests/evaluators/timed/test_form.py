@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from animals import BASE, CYLINDER, GIRTH, RINGED, SIDES, SPHERE, SQUARE, drawing, placed, still
+from animals import BASE, BODY, CYLINDER, GIRTH, RINGED, SIDES, SPHERE, SQUARE, drawing, placed, sequence, still
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -156,3 +156,17 @@ def test_nothing_is_no_larger_than_nothing():
 
 def test_the_sides_of_the_measured_shapes_are_what_the_closed_forms_say():
     assert len(CYLINDER.vertices) == 2 * SIDES + 2
+
+
+@pytest.mark.parametrize("name", ["height", "parts", "size", "spread", "surface", "symmetry", "volume"])
+def test_criteria_of_form_judge_the_last_time_alone(name):
+    first = drawing(BODY)
+    last = drawing(
+        (CYLINDER, placed(wide=2.0, high=3.0)),
+        (CYLINDER, placed(x=5.0, y=1.0)),
+        (CYLINDER, placed(x=1.0, y=7.0, z=4.0, high=2.0)),
+        (SPHERE, placed(x=-3.0, y=2.0, z=9.0)),
+    )
+    criterion = TIMED_CRITERIA[name]
+    assert criterion(sequence(first, first, last)) == criterion(sequence(last))
+    assert criterion(sequence(last)) != pytest.approx(criterion(sequence(first)), rel=0.01)

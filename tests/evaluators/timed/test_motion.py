@@ -52,6 +52,7 @@ class TestSmoothness:
         assert smoothness(1, 2, 3, 4, 5) == pytest.approx(1, abs=1e-9)
         assert smoothness(1, 2, 3, 2, 1) == pytest.approx(1, abs=1e-9)
         assert smoothness(4, 3, 2, 1) == pytest.approx(1, abs=1e-9)
+        assert smoothness(1, 2, 3, 2) == pytest.approx(1, abs=1e-9)
 
     def test_no_change_and_one_sample_are_smooth(self):
         assert smoothness(2, 2, 2) == 1
@@ -93,6 +94,15 @@ class TestGait:
         stride, evenness, lift = motion(walker([0, 0, 0]))
         assert (stride, evenness) == pytest.approx((1.0, (5 / 11) ** 2), rel=1e-9)
         assert lift == pytest.approx(0.25)
+
+    def test_one_speed_on_a_changing_number_of_feet(self):
+        # Two and one by turns, all at one speed: in 12 intervals 12 x 0.5 / 2 of (12 - 1) x 1.5 would have to move.
+        assert motion(walker([0, 0, 0.5]))[1] == pytest.approx(1 - 3 / 16.5, rel=1e-9)
+
+    def test_lift_is_from_a_foot_s_own_lowest_place(self):
+        tracks = walker([0, 0.5])
+        tracks[:, 1, 2] += 0.002  # of a body of size 1: still on the ground
+        assert motion(tracks) == pytest.approx((1.0, 1.0, 0.25), rel=1e-9)
 
     def test_a_longer_reach_is_a_longer_stride(self):
         assert motion(walker([0, 0.5], reach=0.8))[0] == pytest.approx(1.6)
