@@ -111,7 +111,9 @@ def _ignored(path: Path) -> tuple[str, ...]:
     from growth.timed.turtle import unknown_symbols
 
     symbols = unknown_symbols(parse_tl(read_text(path, "a rule file"), str(path)))
-    told = f"{path}: the turtle draws nothing for {', '.join(symbols)}; such a symbol needs an equiv, or a production"
+    names = ", ".join(symbols)
+    remedy = "such a symbol needs a production, or an equiv with a command of the turtle"
+    told = f"{path}: the turtle draws nothing for {names}; {remedy}"
     return (told,) if symbols else ()
 
 

@@ -197,7 +197,8 @@ class Reader:
 
     def _check_depth(self, depth: int, token: Token) -> None:
         if depth > MOST_NESTED:
-            raise self.error(f"an expression nested at most {MOST_NESTED} deep", "name a part of it by #define", token)
+            expected = f"an expression nested at most {MOST_NESTED} deep"
+            raise self.error(expected, "each operator of a sum counts; name a part of it by #define", token)
 
 
 def counted(count: int, what: str, owner: str) -> str:

@@ -7,9 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from genome.errors import InputError
 from genome.files import write_together
 from growth.forms import form_bytes
+from growth.surface import Surface, surface_of
 from growth.timed.animation.glb import animated_glb
 from growth.timed.animation.pictures import SIZE, contact_sheet, gif, pictures
 from growth.timed.drawing import Drawing
@@ -21,6 +24,9 @@ MESHES: Final = (".obj", ".ply", ".stl")
 FORMS: Final = (".glb", ".png", ".gif", *MESHES)
 SHEET: Final = ".sheet.png"
 """A contact sheet."""
+
+CLOSE: Final = 1e-7
+"""Corners nearer to each other than this share of a part's extent are one: single precision knows no less."""
 
 LARGE: Final = (1000, 750)
 """Pixels of a single picture."""
@@ -78,7 +84,29 @@ def _each(drawings: Sequence[Drawing], suffix: str) -> list[bytes]:
         if not len(drawing):
             got = f"none at time {drawing.time:.9g}"
             raise InputError("-o", "a form with parts at each time", got, "begin later, or write a .glb")
-    return [form_bytes(drawing.surface(), suffix) for drawing in drawings]
+    return [form_bytes(welded(drawing), suffix) for drawing in drawings]
+
+
+def welded(drawing: Drawing) -> Surface:
+    """Give all parts as one surface, corners of a part that are at one place joined, and no triangle without an extent.
+
+    Where a carrier changes its section at one place, its rings touch: readers that join corners, as those of STL files
+    do, would take the triangles between them for sides of others.
+    """
+    corners, triangles = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+    count = 0
+    for part, which in enumerate(drawing.which.tolist()):
+        own = drawing.corners(part)
+        extent = float(np.ptp(own, axis=0).max(initial=0.0))
+        keys = np.round(own / (CLOSE * extent)) if extent > 0.0 else np.zeros_like(own)
+        _, first, place = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+        joined = first[place.reshape(-1)][drawing.shapes[which].triangles]
+        kept = (joined != np.roll(joined, 1, axis=1)).all(axis=1)
+        corners.append(own)
+        triangles.append(joined[kept].astype(np.int64) + count)
+        count += len(own)
+    used, numbers = np.unique(np.concatenate(triangles), return_inverse=True)
+    return surface_of(np.concatenate(corners)[used], numbers.reshape(-1, 3))
 
 
 def _numbered(output: Path, count: int) -> list[Path]:

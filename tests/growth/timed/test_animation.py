@@ -371,3 +371,18 @@ def test_what_is_small_moves_as_well() -> None:
     file = File(animated_glb(drawn("axiom !(1e-9) F(1e-8)\ng F(l, age) = 1 + age", [0.0, 1.0])))
     (shown,) = file.at(1.0)
     assert np.ptp(shown[..., 2]) == pytest.approx(2e-8, rel=1e-5)
+
+
+@pytest.mark.parametrize("section", ["square", "star", "triangle", "lobes"])
+@pytest.mark.parametrize("suffix", [".stl", ".ply", ".obj"])
+def test_carriers_with_shoulders_are_watertight_when_they_are_read_again(
+    tmp_path: Path, section: str, suffix: str
+) -> None:
+    lobes = "section lobes(a) = 1 + 0.2*cos(5*a)\n"
+    for word in (f"!(0.3) cC(1, 0) {section} cC(0, 0) cC(1, 1)", f"!(0.3) cC(1, 0) {section} cC(0, 1)"):
+        path = tmp_path / f"shoulder{suffix}"
+        write_drawings(drawn(f"{lobes}axiom {word}", [0.0]), path, "shoulder.tl")
+        body = trimesh.load_mesh(path)
+        assert body.is_watertight, word
+        assert body.is_winding_consistent
+        assert body.volume > 0.1
