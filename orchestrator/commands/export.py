@@ -25,7 +25,7 @@ from orchestrator.commands._options import emit, example, json_option
 )
 @click.option("--id", "ids", type=int, multiple=True, help="An individual's id in the log; may be repeated.")
 @click.option("--format", "formats", default="glb", show_default=True,
-              help="Suffixes: glb, obj, stl, png; by kind ply, npz, hemls, blocks, tl, gif, svg, dxf, ifc.")  # fmt: skip
+              help="Such as glb, obj, stl, png; by kind ply, npz, hemls, blocks, tl, gif, svg, dxf, ifc.")  # fmt: skip
 @click.option("-o", "output", type=click.Path(path_type=Path, file_okay=False), required=True, help="A folder.")
 @json_option
 def command(
