@@ -41,10 +41,10 @@ def cubes_picture(layout: Layout, size: tuple[int, int] = (1000, 750)) -> Image:
     return render([_surface(part.solid.vertices, part.solid.triangles) for part in parts], colours=colours, size=size)
 
 
-def cubes_png(layout: Layout) -> bytes:
-    """Draw the rooms of a plan of cubes as a PNG file."""
+def cubes_png(layout: Layout, size: tuple[int, int] = (1000, 750)) -> bytes:
+    """Draw the rooms of a plan of cubes as a PNG file; see :func:`cubes_picture`."""
     stream = io.BytesIO()
-    cubes_picture(layout).save(stream, format="PNG", optimize=True)
+    cubes_picture(layout, size).save(stream, format="PNG", optimize=True)
     return stream.getvalue()
 
 
