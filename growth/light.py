@@ -102,6 +102,10 @@ def lit(rays: Rays, places: Floats, normals: Floats, turn: int, suns: Floats) ->
     return sunny / len(mine_suns), open_sky / len(mine_sky)
 
 
+SMALL: Final = 320
+"""Pixels; a picture that is no wider is a thumbnail."""
+
+
 @final
 class Ground:
     """The light on a level ground: tables of it around the bodies, read between their points.
@@ -110,18 +114,20 @@ class Ground:
     many more directions.
     """
 
-    def __init__(self, rays: Rays, level: float, suns: Floats) -> None:
-        """Light the ground at ``level`` under what ``rays`` know."""
+    def __init__(self, rays: Rays, level: float, suns: Floats, pixels: int) -> None:
+        """Light the ground at ``level`` under what ``rays`` know, for a picture so many pixels wide."""
         self.level = level
         self._centre = rays.centre[:2]
         self._sun_reach, self._sky_reach = 1.9 * rays.extent, 3.2 * rays.extent
-        places = self._grid(self._sun_reach, 416)
+        # Small pictures show less than the fine tables tell, which would take most of their time.
+        sun_cells, sky_cells = (416, 112) if pixels > SMALL else (176, 64)
+        places = self._grid(self._sun_reach, sun_cells)
         sunny = sum(rays.open(places, np.broadcast_to(way, places.shape)) for way in suns) / len(suns)
-        self._sunny = np.asarray(sunny, dtype=np.float64).reshape(416, 416)
-        places = self._grid(self._sky_reach, 112)
+        self._sunny = np.asarray(sunny, dtype=np.float64).reshape(sun_cells, sun_cells)
+        places = self._grid(self._sky_reach, sky_cells)
         ways = spiral(160) * 0.985 + [0.0, 0.0, 1.0]
         sky = sum(rays.open(places, np.broadcast_to(way, places.shape)) for way in ways) / len(ways)
-        self._sky = np.asarray(sky, dtype=np.float64).reshape(112, 112)
+        self._sky = np.asarray(sky, dtype=np.float64).reshape(sky_cells, sky_cells)
 
     def _grid(self, reach: float, cells: int) -> Floats:
         axis = np.linspace(-reach, reach, cells)

@@ -213,7 +213,7 @@ def _staged(
     return _Stage(
         bodies,
         glazing,
-        Ground(rays, level, suns),
+        Ground(rays, level, suns, size[0]),
         camera,
         suns,
         rays,
