@@ -8,10 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from genome.genr8 import Genr8Genome
-from growth.blocks.warm import compile_kernels as compile_blocks
 from growth.environment.warm import compile_kernels as compile_environment
 from growth.hemls.warm import compile_kernels as compile_hemls
-from growth.timed.warm import compile_kernels as compile_timed
 
 
 def compile_surfaces() -> None:
@@ -23,6 +21,10 @@ def compile_surfaces() -> None:
 
 def compile_kernels() -> None:
     """Compile the kernels of all engines."""
+    # Imported here: islands of surfaces need not hold the other engines.
+    from growth.blocks.warm import compile_kernels as compile_blocks
+    from growth.timed.warm import compile_kernels as compile_timed
+
     compile_surfaces()
     compile_blocks()
     compile_timed()
