@@ -44,7 +44,10 @@ def write_contact_sheet(folder: RunFolder, islands: Sequence[str], output: Path)
         raise InputError(folder.name, "a run with valid individuals", "none in its log so far")
     thumbnails = Thumbnails(folder)
     stream = io.BytesIO()
-    contact_sheet(folder.name, plan, thumbnails).save(stream, format="PNG", optimize=True)
+    sheet = contact_sheet(folder.name, plan, thumbnails)
+    if not thumbnails.shown:
+        raise InputError(folder.name, "a run whose individuals have pictures", "; ".join(thumbnails.troubles))
+    sheet.save(stream, format="PNG", optimize=True)
     write_whole(output, stream.getvalue())
     return [*said(plan), *thumbnails.troubles]
 
@@ -64,13 +67,13 @@ def contact_sheet(title: str, plan: Stages, thumbnails: Thumbnails) -> Image:
     from PIL import Image, ImageDraw
 
     wide, tall = SIZE
-    width = LABEL + len(plan.epochs) * (wide + GAP) + GAP
+    width = LABEL + len(plan.columns) * (wide + GAP) + GAP
     height = HEAD + len(plan.rows) * (tall + CAPTION + GAP) + GAP
     sheet = Image.new("RGB", (width, height), "#ffffff")
     pen = ImageDraw.Draw(sheet)
     pen.text((GAP, 10), title, INK, _font(18))
-    for column, epoch in enumerate(plan.epochs):
-        pen.text((LABEL + column * (wide + GAP), HEAD - 20), f"epoch {epoch}", PALE, _font(13))
+    for column, heading in enumerate(plan.columns):
+        pen.text((LABEL + column * (wide + GAP), HEAD - 20), heading, PALE, _font(13))
     for place, row in enumerate(plan.rows):
         top = HEAD + place * (tall + CAPTION + GAP)
         pen.text((GAP, top + tall // 2 - 8), row.island, INK, _font(14))

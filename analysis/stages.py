@@ -8,8 +8,8 @@ from typing import Final, NamedTuple
 from orchestrator.folder import RunFolder
 from orchestrator.query import ask
 
-STAGES: Final = 5
-"""Columns of a sheet."""
+STAGES: Final = 4
+"""Columns of a sheet; one more shows the best of the whole run."""
 
 ISLANDS: Final = 24
 """The most rows of a sheet."""
@@ -44,10 +44,14 @@ class Cell(NamedTuple):
 
 
 class Row(NamedTuple):
-    """An island's pictures; a stage at which it had bred nobody valid yet has none."""
+    """An island's pictures; a stage at which it had bred nobody valid yet has none. The last is the best of all."""
 
     island: str
     cells: tuple[Cell | None, ...]
+
+
+BEST: Final = "best of all"
+"""The last column's name."""
 
 
 class Stages(NamedTuple):
@@ -69,6 +73,11 @@ class Stages(NamedTuple):
     rows: tuple[Row, ...]
     left_out: tuple[str, ...]
     without: tuple[str, ...]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What stands over the pictures."""
+        return (*(f"epoch {epoch}" for epoch in self.epochs), BEST)
 
 
 def stages(folder: RunFolder, islands: Sequence[str], count: int = STAGES, most: int = ISLANDS) -> Stages:
@@ -96,7 +105,7 @@ def stages(folder: RunFolder, islands: Sequence[str], count: int = STAGES, most:
     epochs = evenly(max((one[-1][0] for one in found.values()), default=0), count)
     known = [name for name in islands if name in found]
     shown = sorted(_spread(known, most), key=known.index)
-    rows = tuple(Row(name, tuple(_at(found[name], stage) for stage in epochs)) for name in shown)
+    rows = tuple(Row(name, (*(_at(found[name], stage) for stage in epochs), _best(found[name]))) for name in shown)
     missing = tuple(name for name in known if name not in shown)
     return Stages(epochs, rows, missing, tuple(name for name in islands if name not in found))
 
@@ -116,6 +125,11 @@ def group_of(island: str) -> str:
 def _at(bred: list[tuple[int, int, float]], stage: int) -> Cell | None:
     before = [one for one in bred if one[0] <= stage]
     return Cell(stage, *before[-1]) if before else None
+
+
+def _best(bred: list[tuple[int, int, float]]) -> Cell:
+    epoch, identity, fitness = max(bred, key=lambda one: (one[2], -one[0]))
+    return Cell(epoch, epoch, identity, fitness)
 
 
 def _spread(names: Sequence[str], most: int) -> list[str]:

@@ -50,6 +50,11 @@ class Thumbnails:
             self._drawn[identity] = self._picture(identity)
         return self._drawn[identity]
 
+    @property
+    def shown(self) -> bool:
+        """Whether any picture could be drawn."""
+        return any(image is not None for image in self._drawn.values())
+
     def _picture(self, identity: int) -> Image | None:
         try:
             if self._nursery is None:

@@ -27,12 +27,14 @@ READING: Final = ("SELECT", "MULTI")
 """DuckDB's types of the statements that only read; MULTI is that of ``pivot``."""
 
 
-def connect(log: Anywhere) -> duckdb.DuckDBPyConnection:
+def connect(log: Anywhere, sql: str = "") -> duckdb.DuckDBPyConnection:
     """Open an in-memory database with one view for each table of the log, and nothing else to be had.
 
     A view reads the table's whole files, those that are there now, so a running or killed run can be read; a table
     without a file yet is an empty view with its columns. Other files are out of reach, and settings are locked. A log
     that is on no local disk is read through Arrow, as a query needs it: DuckDB itself reaches no store.
+
+    With a query only the tables that it names are opened, so that a damaged one does not stand in the way of others.
 
     Raises
     ------
@@ -44,7 +46,8 @@ def connect(log: Anywhere) -> duckdb.DuckDBPyConnection:
     store = Store.open(log)
     connection = duckdb.connect()
     try:
-        for table in TABLES:
+        named = [table for table in TABLES if table in sql.lower()]
+        for table in named or TABLES:
             names = [name for name in store.names(table) if name.endswith(".parquet")]
             if names and store.local is not None:
                 # The files by name, not by a pattern: a folder's name may hold what a pattern takes for its own.
@@ -96,7 +99,7 @@ def ask(log: Anywhere, sql: str) -> Answer:
     """
     import duckdb
 
-    with connect(log) as connection:
+    with connect(log, sql) as connection:
         try:
             _check(connection, sql)
             result = connection.execute(sql)
@@ -117,7 +120,7 @@ def write_parquet(log: Anywhere, sql: str, path: Path) -> None:
     import duckdb
     import pyarrow.parquet as pq
 
-    with connect(log) as connection:
+    with connect(log, sql) as connection:
         try:
             _check(connection, sql)
             table = connection.sql(sql).to_arrow_table()

@@ -42,10 +42,6 @@ def standing(folder: RunFolder) -> dict[str, Any]:
     """
     manifest = folder.manifest()
     going = is_driven(folder.store) if manifest.get("status") in GOING else None
-    islands = as_rows(ask(folder.log, ISLANDS))
-    top = best(folder, 1)
-    evaluations = sum(int(row["evaluations"]) for row in islands)
-    busy = sum(float(row.pop("wall_ms")) for row in islands) / 1e3
     return {
         "run": folder.name,
         "status": manifest.get("status"),
@@ -53,6 +49,17 @@ def standing(folder: RunFolder) -> dict[str, Any]:
         "error": manifest.get("error", ""),
         "started": manifest.get("started"),
         "ended": manifest.get("ended"),
+        **progress(folder),
+    }
+
+
+def progress(folder: RunFolder) -> dict[str, Any]:
+    """Give what the log alone tells of how a run stands: generations, evaluations, rates, the best, the islands."""
+    islands = as_rows(ask(folder.log, ISLANDS))
+    top = best(folder, 1)
+    evaluations = sum(int(row["evaluations"]) for row in islands)
+    busy = sum(float(row.pop("wall_ms")) for row in islands) / 1e3
+    return {
         "generations": max((int(row["generation"]) for row in islands), default=0),
         "evaluations": evaluations,
         "evaluations_per_s": round(evaluations / busy, 3) if busy > 0 else None,

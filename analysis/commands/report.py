@@ -19,6 +19,7 @@ def command(run: str, output: Path | None, as_json: bool) -> None:
     from analysis.report import write_report
     from orchestrator.folder import open_run
 
+    click.echo("gathering the figures and growing the pictures anew ...", err=True)
     place = write_report(open_run(run), output)
     if as_json:
         emit({"report": place})

@@ -19,15 +19,15 @@ def forms(folder: RunFolder, islands: Sequence[str]) -> Section:
     thumbnails = Thumbnails(folder)
     sheet = tuple((row.island, tuple(_picture(cell, thumbnails) for cell in row.cells)) for row in plan.rows)
     text = (
-        "Of each island the best that it bred in an epoch, or in the last one before in which it bred a valid one; "
+        "Of each island the best that it bred in an epoch, or in the last one before in which it bred a valid one, "
+        "and the best of all; "
         "species that are scored with partners stand among those that they were first scored with."
     )
     if not sheet:
         return Section("forms", "Forms", "No individual is valid.", troubles=tuple(said(plan)))
     figure = Figure("Which individuals are shown", sql, answer, note="Of each island and epoch the best bred in it.")
-    columns = tuple(f"epoch {epoch}" for epoch in plan.epochs)
     troubles = (*said(plan), *thumbnails.troubles)
-    return Section("forms", "Forms", text, (figure,), sheet, columns, troubles=troubles)
+    return Section("forms", "Forms", text, (figure,), sheet, plan.columns, troubles=troubles)
 
 
 def _picture(cell: Cell | None, thumbnails: Thumbnails) -> Picture:

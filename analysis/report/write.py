@@ -16,9 +16,10 @@ from analysis.report.parts import Section
 from genome.errors import InputError
 from genome.files import write_whole
 from genome.mishaps import one_line
+from islands.schemas import TABLES
 from orchestrator.folder import RunFolder
 from orchestrator.keeping import EXPERIMENT
-from orchestrator.standing import standing
+from orchestrator.standing import progress, standing
 
 NAME: Final = "report.html"
 
@@ -62,10 +63,7 @@ def write_report(folder: RunFolder, output: Path | None = None) -> str:
 
 def sections(folder: RunFolder) -> list[Section]:
     """Gather all sections; one that cannot be gathered says why."""
-    try:
-        found, trouble = standing(folder), ""
-    except InputError as error:
-        found, trouble = {"run": folder.name, **NOTHING}, str(error)
+    found, troubles = _standing(folder)
     islands = [str(row["island"]) for row in found["islands"]]
     best = None if found["best"] is None else int(found["best"]["id"])
     makers: list[tuple[str, str, Callable[[], Section]]] = [
@@ -78,9 +76,26 @@ def sections(folder: RunFolder) -> list[Section]:
         ("settings", "Settings", lambda: settings(folder)),
     ]
     made = [_made(anchor, title, make) for anchor, title, make in makers]
-    if trouble:
-        made.insert(0, Section("trouble", "The log cannot be read as a whole", troubles=(one_line(trouble),)))
+    if troubles:
+        made.insert(0, Section("trouble", "What is missing", troubles=tuple(troubles)))
     return made
+
+
+def _standing(folder: RunFolder) -> tuple[dict[str, Any], list[str]]:
+    """Say how a run stands, as far as its manifest and its log tell, and what is wrong with either."""
+    troubles = []
+    if not any(folder.log.names(table) for table in TABLES):
+        troubles.append(f"There is no file of the log at {folder.log}.")
+    found: dict[str, Any] = {"run": folder.name, **NOTHING}
+    try:
+        return standing(folder), troubles
+    except InputError as error:
+        troubles.append(one_line(str(error)))
+    try:
+        found |= progress(folder)
+    except InputError as error:
+        troubles.append(one_line(str(error)))
+    return found, list(dict.fromkeys(troubles))
 
 
 def settings(folder: RunFolder) -> Section:

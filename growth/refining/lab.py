@@ -10,7 +10,7 @@ import numpy as np
 
 from genome.errors import InputError
 from growth.protocol import Failure
-from growth.refining.mesh import Mesh
+from growth.refining.mesh import Mesh, area
 
 PACKAGES: Final[Mapping[str, str]] = {"libGL.so.1": "libgl1", "libOpenGL.so.0": "libopengl0", "libEGL.so.1": "libegl1"}
 """Debian's packages of the libraries that pymeshlab looks for, by the file that it misses."""
@@ -44,6 +44,9 @@ def _missing(error: ImportError) -> InputError:
     return InputError("refine", expected, f"this machine lacks {library.group()}, which it needs", remedy)
 
 
+FLAT: Final = 1e-12
+"""Of the diagonal squared: forms of less area have none, and filters stumble over them."""
+
 Filter = tuple[str, Mapping[str, Any]]
 """A filter of pymeshlab by its name, and its parameters."""
 
@@ -64,6 +67,8 @@ def filtered(mesh: Mesh, *filters: Filter) -> Mesh | Failure:
         A failure has the reason ``refining``: a filter refused the mesh, or nothing was left of it.
     """
     lab = load()
+    if not area(mesh) > FLAT * mesh.diagonal**2:
+        return Failure("refining", f"{filters[0][0]}: the form has no area")
     session = lab.MeshSet()
     session.add_mesh(lab.Mesh(mesh.vertices, mesh.triangles))
     for name, parameters in filters:

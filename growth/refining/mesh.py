@@ -90,6 +90,13 @@ def volumes(mesh: Mesh) -> Points:
     return np.asarray(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0)
 
 
+def area(mesh: Mesh) -> float:
+    """Give the area of all triangles."""
+    corners = mesh.vertices[mesh.triangles]
+    crossed = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return float(0.5 * np.linalg.norm(crossed, axis=1).sum())
+
+
 def pieces(triangles: Indices, count: int) -> NDArray[np.int32]:
     """Give the piece of each triangle (t,), pieces being joined by vertices, of which there are ``count``."""
     if not len(triangles):

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 THICK: Final = 0.02
 """Of the diagonal: how thick surfaces become where no thickness is asked for."""
 
+THINNEST: Final = 0.002
+"""Of the diagonal: thinner solids would have millions of triangles."""
+
 THIN: Final = 0.001
 """Of the diagonal: how far a body that is closed already is widened where its parts touch."""
 
@@ -45,6 +48,9 @@ def solid(mesh: Mesh, settings: RefineSettings) -> Mesh | Failure:
         return mended
     touching = _closed(mesh)
     thickness = 2.0 * THIN * mesh.diagonal if touching else settings.thickness or THICK * mesh.diagonal
+    if not touching and thickness < THINNEST * mesh.diagonal:
+        least = f"{THINNEST * mesh.diagonal:.4g}, {THINNEST:g} of the form's diagonal"
+        return Failure("refining", f"solid: a thickness of {thickness:.4g} is less than can be wrapped ({least})")
     opening = THICK * mesh.diagonal if touching else OPENING * thickness
     wrap = filtered(mesh, ("generate_alpha_wrap", {"alpha": length(opening), "offset": length(0.5 * thickness)}))
     if isinstance(wrap, Failure):

@@ -131,7 +131,7 @@ def test_a_report_asks_nothing_of_the_network_and_stands_in_the_run(done: Path) 
     assert not re.search(r"@import|url\((?!#)|<script", text)
     assert len(reader.ids) == len(set(reader.ids))
     assert {link[1:] for link in reader.links if link.startswith("#")} <= set(reader.ids)
-    assert len(reader.images) == 2 * 3  # two islands of surfaces at three epochs; bits have no pictures
+    assert len(reader.images) == 2 * 4  # two islands of surfaces at three epochs, and their best; bits have no pictures
     assert troubles(text) == [
         "dots-0: individuals of its kind have no picture, or grow to no form",
         "dots-1: individuals of its kind have no picture, or grow to no form",
@@ -176,8 +176,18 @@ def test_a_damaged_table_leaves_the_rest_to_be_seen(copy: Path) -> None:
     for path in (copy / "log" / "migrations").glob("*.parquet"):
         path.write_bytes(b"PAR1 no more")
     _, text = reported(copy, copy / "report.html")
-    assert any("cannot be" in trouble for trouble in troubles(text))
-    assert '<section id="settings">' in text
+    shown = text.partition('<section id="channels">')
+    assert any("cannot be shown" in trouble for trouble in troubles(shown[2].partition("</section>")[0]))
+    assert "net: fitness" in text
+    assert "Ancestors of the champions" in shown[2]
+
+
+def test_without_a_manifest_that_can_be_read_the_log_tells_of_the_islands(copy: Path) -> None:
+    (copy / "manifest.json").write_text("{")
+    reader, text = reported(copy, copy / "report.html")
+    assert "manifest.json" in troubles(text)[0]
+    assert len(reader.images) == 2 * 4
+    assert "nobody is valid" not in text
 
 
 def test_without_the_experiment_there_are_numbers_and_no_pictures(copy: Path) -> None:
@@ -193,6 +203,7 @@ def test_a_run_of_which_nothing_is_logged_yet(copy: Path) -> None:
     (copy / "log").mkdir()
     reader, text = reported(copy, copy / "report.html")
     assert reader.images == []
+    assert "There is no file of the log at" in troubles(text)[0]
     assert "Nothing has travelled on a channel." in text
     assert "Nobody was bred." in text
 
@@ -216,12 +227,15 @@ def test_stages_are_the_best_of_the_last_epoch_up_to_each(done: Path) -> None:
     assert [row.island for row in plan.rows] == ["net-0", "net-1", "dots-0"]
     assert (plan.left_out, plan.without) == (("dots-1",), ("none",))
     for row in plan.rows:
-        for cell in row.cells:
+        for cell in row.cells[:-1]:
             assert cell is not None
             here = f"island = '{row.island}' and epoch = {cell.epoch}"
             sql = f"select id from individuals where {here} order by fitness desc, id"
             assert ask(open_run(str(done)).log, sql).rows[0] == (cell.id,)
             assert cell.epoch == cell.stage
+        best = f"select id from individuals where island = '{row.island}' order by fitness desc, epoch, id"
+        assert row.cells[-1] is not None
+        assert ask(open_run(str(done)).log, best).rows[0] == (row.cells[-1].id,)
 
 
 def test_stages_are_evenly_apart_and_groups_are_named_before_the_number() -> None:

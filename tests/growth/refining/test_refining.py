@@ -15,6 +15,7 @@ from growth.protocol import Failure
 from growth.refining import STEPS, Mesh, RefineSettings, lab, parse_recipe, quality, refine
 from growth.refining.clean import outward
 from growth.refining.mesh import pieces
+from growth.refining.parting import parted
 
 try:
     lab.load()
@@ -165,9 +166,7 @@ def test_solid_of_any_triangles_is_watertight_and_the_same_each_time(seed: int) 
 @with_pymeshlab
 def test_what_is_not_a_form_fails_as_a_value() -> None:
     point = Mesh(np.ones((3, 3)), np.array([[0, 1, 2]], dtype=np.int32))
-    assert refine(point, ("clean",)) == Failure(
-        "refining", "meshing_merge_close_vertices: nothing was left of the form"
-    )
+    assert refine(point, ("clean",)) == Failure("refining", "meshing_merge_close_vertices: the form has no area")
     assert refine(point, ("solid",)) == Failure("refining", "solid: the form has no extent")
 
 
@@ -204,3 +203,94 @@ def test_what_pymeshlab_lacks_is_said(monkeypatch: pytest.MonkeyPatch, error: Im
     with pytest.raises(InputError) as caught:
         lab.load()
     assert told in str(caught.value)
+
+
+def cubes(*places: tuple[int, int, int]) -> Mesh:
+    """The outer faces of unit cubes of a grid, corners at one place being one vertex."""
+    taken = set(places)
+    faces = [(axis, side) for axis in range(3) for side in (0, 1)]
+    rings = []
+    for place in places:
+        for axis, side in faces:
+            beside = tuple(place[at] + (2 * side - 1) * (at == axis) for at in range(3))
+            if beside in taken:
+                continue
+            one, other = (axis + 1) % 3, (axis + 2) % 3
+            ring = np.zeros((4, 3), dtype=np.int64) + place
+            ring[:, axis] += side
+            ring[[1, 2], one] += 1
+            ring[[2, 3], other] += 1
+            rings.append(ring if side else ring[::-1])
+    corners = np.array(rings)
+    vertices, numbers = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    quads = numbers.reshape(-1, 4)
+    return Mesh(vertices.astype(float), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int32))
+
+
+BODIES = {
+    "two that share an edge": [(0, 0, 0), (1, 1, 0)],
+    "two that share a corner": [(0, 0, 0), (1, 1, 1)],
+    "one that touches itself": [(0, 0, 0), (1, 0, 0), (1, 0, 1), (1, 1, 1), (0, 1, 1), (0, 1, 2), (0, 0, 2)],
+    "four round an edge that they do not fill": [(0, 0, 0), (1, 1, 0), (0, 0, 1), (1, 1, 1), (2, 1, 0), (2, 0, 0)],
+    "a board of chess": [(x, y, 0) for x in range(4) for y in range(4) if (x + y) % 2],
+}
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_bodies_that_touch_are_parted_and_stay_closed(name: str) -> None:
+    body = cubes(*BODIES[name])
+    assert quality(body).volume == pytest.approx(len(BODIES[name]))
+    found = quality(parted(body))
+    assert found[:5] == (True, True, True, 0, 0)
+    assert found.volume == pytest.approx(len(BODIES[name]))
+
+
+@given(st.sets(st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), min_size=1))
+def test_any_body_of_cubes_is_parted_into_closed_sides(places: set[tuple[int, int, int]]) -> None:
+    found = quality(parted(cubes(*sorted(places))))
+    assert found[:5] == (True, True, True, 0, 0)
+    assert found.volume == pytest.approx(len(places))
+
+
+def test_sides_that_do_not_go_in_pairs_are_parted_each_by_itself() -> None:
+    fan = np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]], dtype=np.int32)
+    vertices = np.array([[0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]], dtype=float)
+    found = parted(Mesh(vertices, fan))
+    assert len(found.vertices) == 9
+    assert quality(found).manifold
+
+
+@with_pymeshlab
+def test_blocks_that_touch_are_cleaned_and_hollows_stay() -> None:
+    found = refined(cubes(*BODIES["a board of chess"]), "clean")
+    assert quality(found)[:5] == (True, True, True, 0, 0)
+    outer, inner = trimesh.creation.icosphere(radius=2.0), trimesh.creation.icosphere(radius=1.0)
+    hollow = Mesh(
+        np.concatenate([outer.vertices, inner.vertices]),
+        np.concatenate([outer.faces, inner.faces[:, ::-1] + len(outer.vertices)]).astype(np.int32),
+    )
+    for step in ("clean", "solid"):
+        assert quality(refined(hollow, step)).volume == pytest.approx(outer.volume - inner.volume)
+
+
+@with_pymeshlab
+@pytest.mark.parametrize(
+    ("recipe", "settings", "told"),
+    [
+        ("solid", {"thickness": 1e-6}, "solid: a thickness of 1e-06 is less than can be wrapped (0.005657, 0.002 of"),
+        ("remesh", {"length": 1e-6}, "remesh: edges of 1e-06 are shorter than can be made (0.002828, 0.001 of"),
+    ],
+)
+def test_what_would_take_for_ever_is_refused(recipe: str, settings: dict[str, float], told: str) -> None:
+    found = refine(sheet(4), parse_recipe(recipe), RefineSettings.model_validate(settings))
+    assert isinstance(found, Failure)
+    assert found.detail.startswith(told)
+
+
+@with_pymeshlab
+@pytest.mark.parametrize("recipe", list(STEPS))
+def test_triangles_in_a_line_have_no_area(recipe: str) -> None:
+    line = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), np.array([[0, 1, 2]], dtype=np.int32))
+    found = refine(line, (recipe,))
+    assert isinstance(found, Failure)
+    assert found.detail.endswith("the form has no area")
