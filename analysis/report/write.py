@@ -19,9 +19,15 @@ from genome.mishaps import one_line
 from islands.schemas import TABLES
 from orchestrator.folder import RunFolder
 from orchestrator.keeping import EXPERIMENT
+from orchestrator.query import as_rows, ask
+from orchestrator.regrow import best
 from orchestrator.standing import progress, standing
 
 NAME: Final = "report.html"
+
+BRED: Final = """
+select island, max(generation) as generation, count(*) as bred from individuals group by island order by min(id)
+"""
 
 NOTHING: Final[dict[str, Any]] = {
     "status": "unknown", "alive": None, "error": "", "started": None, "ended": None, "generations": 0, "evaluations": 0,
@@ -65,14 +71,14 @@ def sections(folder: RunFolder) -> list[Section]:
     """Gather all sections; one that cannot be gathered says why."""
     found, troubles = _standing(folder)
     islands = [str(row["island"]) for row in found["islands"]]
-    best = None if found["best"] is None else int(found["best"]["id"])
+    champion = None if found["best"] is None else int(found["best"]["id"])
     makers: list[tuple[str, str, Callable[[], Section]]] = [
         ("run", "What ran", lambda: opening(folder, found)),
         ("forms", "Forms", lambda: forms(folder, islands)),
         ("curves", "Fitness and diversity", lambda: curves(folder, islands)),
         ("channels", "Channels", lambda: channels(folder)),
         ("failures", "Invalid individuals and events", lambda: failures(folder)),
-        ("ancestors", "Ancestors of the champions", lambda: ancestors(folder, best)),
+        ("ancestors", "Ancestors of the champions", lambda: ancestors(folder, champion)),
         ("settings", "Settings", lambda: settings(folder)),
     ]
     made = [_made(anchor, title, make) for anchor, title, make in makers]
@@ -91,11 +97,25 @@ def _standing(folder: RunFolder) -> tuple[dict[str, Any], list[str]]:
         return standing(folder), troubles
     except InputError as error:
         troubles.append(one_line(str(error)))
-    try:
-        found |= progress(folder)
-    except InputError as error:
-        troubles.append(one_line(str(error)))
+    for tell in (progress, _bred):  # the second asks one table alone
+        try:
+            found |= tell(folder)
+            break
+        except InputError as error:
+            troubles.append(one_line(str(error)))
     return found, list(dict.fromkeys(troubles))
+
+
+def _bred(folder: RunFolder) -> dict[str, Any]:
+    """Give what the individuals alone tell: the islands, how far they came, and the best."""
+    rows = as_rows(ask(folder.log, BRED))
+    top = best(folder, 1)
+    return {
+        "generations": max((int(row["generation"]) for row in rows), default=0),
+        "evaluations": sum(int(row["bred"]) for row in rows),
+        "best": {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None,
+        "islands": rows,
+    }
 
 
 def settings(folder: RunFolder) -> Section:
