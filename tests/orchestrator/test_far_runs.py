@@ -267,7 +267,7 @@ def test_a_store_that_goes_away_in_mid_query_is_no_fault_of_the_query(tmp_path, 
     with serving() as url, reaching(url):
         log = run_far(tmp_path, "s3://bucket/runs").store.at("log")
         connection = query.connect(log)
-    monkeypatch.setattr(query, "connect", lambda log: connection)
+    monkeypatch.setattr(query, "connect", lambda log, sql: connection)
     with pytest.raises(
         StoreError, match=r"s3://bucket/runs/bits/log: expected a log that can be read, got no connection"
     ):
