@@ -49,11 +49,22 @@ def applied(criteria: Mapping[str, Callable[..., float]], *seen: object) -> dict
 
 
 def read_only(value: T) -> T:
-    """Give a frozen dataclass with views of its arrays that cannot be written to."""
+    """Give a frozen dataclass with views of its arrays that cannot be written to, those in its tuples too."""
     kind: Any = type(value)
-    kept = {name: getattr(value, name) for name in _names(kind)}
-    made: T = kind(**{name: _locked(one) if isinstance(one, np.ndarray) else one for name, one in kept.items()})
+    made: T = kind(**{name: _sealed(getattr(value, name)) for name in _names(kind)})
     return made
+
+
+def _sealed(value: Any) -> Any:  # noqa: ANN401 - a field, whatever it is
+    if isinstance(value, np.ndarray):
+        return _locked(value)
+    if not isinstance(value, tuple):
+        return value
+    items: list[Any] = [
+        read_only(one) if is_dataclass(one) and not isinstance(one, type) else _sealed(one) for one in value
+    ]
+    made: Any = type(value)
+    return made(*items) if hasattr(value, "_fields") else made(items)
 
 
 @lru_cache(maxsize=64)

@@ -7,7 +7,8 @@ from growth.protocol import Failure
 from growth.timed.derivation import derive
 from growth.timed.turtle import draw
 
-_EVERY_KERNEL = """axiom A(1) C
+_EVERY_KERNEL = """#define K 1 + 1
+axiom A(1) C
 A(x) @ 0.5 : x < 9 -> A(x + besselj(0, x)) [ B(random(0, x)) @ (x/9) ] : 0.5
 A(x) @ 0.5 -> A(x)
 B(x) @ x -> B(x)

@@ -41,8 +41,8 @@ def same(one: Derivation, other: Derivation) -> bool:
     return all(a.shape == b.shape and a.tobytes() == b.tobytes() for a, b in zip(one.state, other.state, strict=True))
 
 
-def compare(system: TimedSystem, seed: int, times: list[float]) -> None:
-    """Compare the engine with the plain reference at some times, bit for bit."""
+def difference(system: TimedSystem, seed: int, times: list[float]) -> object:
+    """Compare the engine with the plain reference at some times, bit for bit; give what differs first, or ``None``."""
     derivation = begin(system, seed, BUDGET)
     reference = None
     for time in times:
@@ -50,24 +50,26 @@ def compare(system: TimedSystem, seed: int, times: list[float]) -> None:
             derivation = derivation.at(time)
         found = derivation.word() if isinstance(derivation, Derivation) else derivation
         if isinstance(found, Failure) and found.reason == "budget":
-            return
+            return None
         try:
             reference = reference or Reference(system, seed)
             expected = reference.at(time)
-        except TroubleError:
-            assert isinstance(found, Failure)
-            assert found.reason == "expression"
-            return
-        assert isinstance(found, Word), found
-        assert [(m.symbol, list(m.parameters), m.age) for m in found.modules()] == expected
-        assert isinstance(derivation, Derivation)
-        assert derivation.state.whole[:, KEY].astype(np.uint64).tolist() == [cell.key for cell in reference.word]
+        except TroubleError as trouble:
+            failed = isinstance(found, Failure) and found.reason == "expression"
+            return None if failed else (time, found, trouble)
+        if not isinstance(found, Word) or not isinstance(derivation, Derivation):
+            return time, found, expected
+        modules = [(m.symbol, list(m.parameters), m.age) for m in found.modules()]
+        keys = derivation.state.whole[:, KEY].astype(np.uint64).tolist()
+        if modules != expected or keys != [cell.key for cell in reference.word]:
+            return time, modules, expected
+    return None
 
 
 @settings(max_examples=100)
 @given(systems(), st.integers(0, 2**63 - 1), TIMES)
 def test_words_are_those_of_the_plain_reference(system: TimedSystem, seed: int, times: list[float]) -> None:
-    compare(system, seed, times)
+    assert difference(system, seed, times) is None
 
 
 @settings(max_examples=100)
@@ -75,7 +77,7 @@ def test_words_are_those_of_the_plain_reference(system: TimedSystem, seed: int, 
 def test_words_with_contexts_are_those_of_the_plain_reference(
     system: TimedSystem, seed: int, times: list[float]
 ) -> None:
-    compare(system, seed, times)
+    assert difference(system, seed, times) is None
 
 
 @settings(max_examples=100)
