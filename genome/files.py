@@ -19,15 +19,7 @@ def write_whole(path: Path, content: bytes) -> None:
     InputError
         When the file cannot be written.
     """
-    waiting = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        waiting.write_bytes(content)
-        waiting.replace(path)
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            waiting.unlink()
-        reason = error.strerror or str(error)
-        raise InputError(str(path), "a file that can be written", reason.lower(), "check the folder") from None
+    write_together({path: content})
 
 
 def write_together(files: Mapping[Path, bytes]) -> None:

@@ -56,16 +56,21 @@ def standing(folder: RunFolder) -> dict[str, Any]:
 def progress(folder: RunFolder) -> dict[str, Any]:
     """Give what the log alone tells of how a run stands: generations, evaluations, rates, the best, the islands."""
     islands = as_rows(ask(folder.log, ISLANDS))
-    top = best(folder, 1)
     evaluations = sum(int(row["evaluations"]) for row in islands)
     busy = sum(float(row.pop("wall_ms")) for row in islands) / 1e3
     return {
         "generations": max((int(row["generation"]) for row in islands), default=0),
         "evaluations": evaluations,
         "evaluations_per_s": round(evaluations / busy, 3) if busy > 0 else None,
-        "best": {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None,
+        "best": champion(folder),
         "islands": islands,
     }
+
+
+def champion(folder: RunFolder) -> dict[str, Any] | None:
+    """Give the best individual of a log: ``island``, ``id``, ``fitness``; ``None`` where nobody is valid."""
+    top = best(folder, 1)
+    return {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None
 
 
 def alive(manifest: dict[str, Any]) -> bool | None:

@@ -20,8 +20,7 @@ from islands.schemas import TABLES
 from orchestrator.folder import RunFolder
 from orchestrator.keeping import EXPERIMENT
 from orchestrator.query import as_rows, ask
-from orchestrator.regrow import best
-from orchestrator.standing import progress, standing
+from orchestrator.standing import champion, progress, standing
 
 NAME: Final = "report.html"
 
@@ -71,14 +70,14 @@ def sections(folder: RunFolder) -> list[Section]:
     """Gather all sections; one that cannot be gathered says why."""
     found, troubles = _standing(folder)
     islands = [str(row["island"]) for row in found["islands"]]
-    champion = None if found["best"] is None else int(found["best"]["id"])
+    best = None if found["best"] is None else int(found["best"]["id"])
     makers: list[tuple[str, str, Callable[[], Section]]] = [
         ("run", "What ran", lambda: opening(folder, found)),
         ("forms", "Forms", lambda: forms(folder, islands)),
         ("curves", "Fitness and diversity", lambda: curves(folder, islands)),
         ("channels", "Channels", lambda: channels(folder)),
         ("failures", "Invalid individuals and events", lambda: failures(folder)),
-        ("ancestors", "Ancestors of the champions", lambda: ancestors(folder, champion)),
+        ("ancestors", "Ancestors of the champions", lambda: ancestors(folder, best)),
         ("settings", "Settings", lambda: settings(folder)),
     ]
     made = [_made(anchor, title, make) for anchor, title, make in makers]
@@ -109,11 +108,10 @@ def _standing(folder: RunFolder) -> tuple[dict[str, Any], list[str]]:
 def _bred(folder: RunFolder) -> dict[str, Any]:
     """Give what the individuals alone tell: the islands, how far they came, and the best."""
     rows = as_rows(ask(folder.log, BRED))
-    top = best(folder, 1)
     return {
         "generations": max((int(row["generation"]) for row in rows), default=0),
         "evaluations": sum(int(row["bred"]) for row in rows),
-        "best": {"island": top[0].island, "id": top[0].id, "fitness": top[0].fitness} if top else None,
+        "best": champion(folder),
         "islands": rows,
     }
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
@@ -11,10 +13,11 @@ from growth.refining.mesh import Mesh
 from growth.surface import Points
 
 Ints = NDArray[np.int64]
+Side = TypeVar("Side", int, NDArray[np.int64])
 
 
 def parted(mesh: Mesh) -> Mesh:
-    """Give each edge two triangles at most, by parting vertices; triangles and places stay.
+    """Give each edge two triangles at most, by parting vertices; the form stays as it is.
 
     Where bodies touch along an edge their triangles go in pairs with the solid between them, as seen round the edge; an
     edge whose fronts do not agree, or that an odd number of triangles share, is parted into sides of their own.
@@ -24,17 +27,9 @@ def parted(mesh: Mesh) -> Mesh:
     mesh
         Without triangles that have a corner twice.
     """
-    triangles = mesh.triangles.astype(np.int64)
-    count = len(triangles)
-    starts, ends = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
-    keys = np.minimum(starts, ends) * len(mesh.vertices) + np.maximum(starts, ends)
-    order = np.argsort(keys, kind="stable")
-    _, first, uses = np.unique(keys[order], return_index=True, return_counts=True)
-    twice = first[uses == 2]
-    pairs = [np.stack([order[twice], order[twice + 1]], axis=1)]
-    for at, many in zip(first[uses > 2].tolist(), uses[uses > 2].tolist(), strict=True):
-        pairs.append(_paired(mesh, order[at : at + many], starts))
-    sides = np.concatenate(pairs)
+    count = len(mesh.triangles)
+    starts, pairs, crossed = _sides(mesh)
+    sides = np.concatenate([pairs, *(_paired(mesh, many, starts) for many in crossed)])
     # A side and the next corner of its triangle: the two ends of the edge, in both triangles.
     here = np.concatenate([sides, _next(sides)], axis=0)
     across = _matched(sides, starts)
@@ -50,12 +45,7 @@ def _halved(mesh: Mesh) -> Mesh:
     A body may touch itself along an edge whose ends it needs whole.
     """
     while True:
-        starts = mesh.triangles.reshape(-1).astype(np.int64)
-        ends = np.roll(mesh.triangles, -1, axis=1).reshape(-1)
-        keys = np.minimum(starts, ends) * len(mesh.vertices) + np.maximum(starts, ends)
-        order = np.argsort(keys, kind="stable")
-        _, first, uses = np.unique(keys[order], return_index=True, return_counts=True)
-        crossed = [order[at : at + many] for at, many in zip(first.tolist(), uses.tolist(), strict=True) if many > 2]
+        starts, _, crossed = _sides(mesh)
         if not crossed:
             return mesh
         vertices, triangles = list(mesh.vertices), mesh.triangles.tolist()
@@ -68,7 +58,7 @@ def _halved(mesh: Mesh) -> Mesh:
             pairs = _paired(mesh, sides, starts).tolist() or [[side] for side in sides.tolist()]
             for pair in pairs:
                 middle = len(vertices)
-                vertices.append(0.5 * (mesh.vertices[starts[pair[0]]] + mesh.vertices[ends[pair[0]]]))
+                vertices.append(mesh.vertices[starts[[pair[0], _next(pair[0])]]].mean(axis=0))
                 for side in pair:
                     face, at = divmod(side, 3)
                     one, two, third = (triangles[face][(at + step) % 3] for step in range(3))
@@ -77,9 +67,28 @@ def _halved(mesh: Mesh) -> Mesh:
         mesh = Mesh(np.array(vertices), np.array(triangles, dtype=np.int32))
 
 
-def _next(sides: Ints) -> Ints:
+def _sides(mesh: Mesh) -> tuple[Ints, Ints, list[Ints]]:
+    """Sort the sides of triangles, three each, by their edges.
+
+    Returns
+    -------
+    tuple
+        The vertex at which each side starts (3t,); the two sides of each edge that has two (k, 2); and those of each
+        edge that has more.
+    """
+    starts = mesh.triangles.reshape(-1).astype(np.int64)
+    ends = np.roll(mesh.triangles, -1, axis=1).reshape(-1)
+    keys = np.minimum(starts, ends) * len(mesh.vertices) + np.maximum(starts, ends)
+    order = np.argsort(keys, kind="stable")
+    _, first, uses = np.unique(keys[order], return_index=True, return_counts=True)
+    twice = first[uses == 2]
+    crossed = [order[at : at + many] for at, many in zip(first.tolist(), uses.tolist(), strict=True) if many > 2]
+    return starts, np.stack([order[twice], order[twice + 1]], axis=1), crossed
+
+
+def _next(sides: Side) -> Side:
     """Give the corner at which each side ends."""
-    return np.asarray(sides - sides % 3 + (sides + 1) % 3)
+    return sides - sides % 3 + (sides + 1) % 3
 
 
 def _matched(
