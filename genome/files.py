@@ -30,18 +30,28 @@ def write_together(files: Mapping[Path, bytes]) -> None:
     InputError
         When one cannot be written; then none is.
     """
-    waiting = {path: path.with_name(f".{path.name}.{os.getpid()}.tmp") for path in files}
+    waiting: dict[Path, Path] = {}
     path = Path()
     try:
         for path, content in files.items():
             if path.is_dir():  # nothing can be moved there, and by then others would have been
                 raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            waiting[path] = _draft(path)
             waiting[path].write_bytes(content)
-        for path, written in waiting.items():
-            written.replace(path)
+        for path, draft in waiting.items():
+            if draft != path:
+                draft.replace(path)
     except OSError as error:
-        for written in waiting.values():
-            with contextlib.suppress(OSError):
-                written.unlink()
+        for place, draft in waiting.items():
+            if draft != place:
+                with contextlib.suppress(OSError):
+                    draft.unlink()
         reason = error.strerror or str(error)
         raise InputError(str(path), "a file that can be written", reason.lower(), "check the folder") from None
+
+
+def _draft(path: Path) -> Path:
+    """Give the place where a file stands until it is whole; a device or a pipe is written to, not replaced."""
+    if path.exists() and not path.is_file():
+        return path
+    return path.with_name(f".{path.name}.{os.getpid()}.tmp")

@@ -27,6 +27,8 @@ from orchestrator.keeping import EXPERIMENT, as_yaml, with_files_kept
 from orchestrator.loading import Loaded
 
 MANIFEST: Final = "manifest.json"
+LOG: Final = "log"
+"""The folder of the tables' folders."""
 DEFAULT_RUNS: Final = Path("runs")
 LONGEST_NAME: Final = 100
 """Characters of a run's name, as of an experiment's: the run's folder holds the experiment under its own name."""
@@ -62,7 +64,7 @@ class RunFolder:
     @property
     def log(self) -> Store:
         """Where the tables' folders are."""
-        return self.store.at("log")
+        return self.store.at(LOG)
 
     @property
     def name(self) -> str:
@@ -122,25 +124,45 @@ def open_run(path: str) -> RunFolder:
     InputError
         When it is no run's folder.
     """
-    if is_uri(path):
-        return _open_place(path)
-    for folder in (Path(path), DEFAULT_RUNS / path):
-        if (folder / MANIFEST).is_file():
-            return _run_in(folder.resolve())
-    if not Path(path).exists():
+    found = _opened(path, MANIFEST)
+    if found is not None:
+        return found
+    if not is_uri(path) and not Path(path).exists():
         known = [entry.parent.name for entry in sorted(DEFAULT_RUNS.glob(f"*/{MANIFEST}"))]
         remedy = near(Path(path).name, known) if known else "see 'atoll run --help'"
         raise InputError(path, "a run's folder", "nothing by that name", remedy)
-    raise InputError(path, "a run's folder", f"one without {MANIFEST}", "give the folder that 'atoll run' printed")
+    raise InputError(path, "a run's folder", f"one without {MANIFEST}", "give the place that 'atoll run' printed")
 
 
-def _open_place(uri: str) -> RunFolder:
-    """Give the run at a URI."""
-    store = Store.open(uri)
-    if store.exists(MANIFEST):
-        return _run_in(store)
-    store.check()
-    raise InputError(uri, "a run's folder", f"one without {MANIFEST}", "give the place that 'atoll run' printed")
+def open_remains(path: str) -> RunFolder:
+    """Give a run to those who only read it, as :func:`open_run`: one that has lost its manifest is taken, too.
+
+    Raises
+    ------
+    InputError
+        When neither a manifest nor a log is there.
+    """
+    try:
+        return open_run(path)
+    except StoreError:
+        raise
+    except InputError:
+        found = _opened(path, LOG)
+        if found is None:
+            raise
+        return found
+
+
+def _opened(path: str, holding: str) -> RunFolder | None:
+    """Give the run at a place where a folder holds what is named."""
+    if is_uri(path):
+        store = Store.open(path)
+        if store.exists(holding) or holding in store.folders():
+            return _run_in(store)
+        store.check()
+        return None
+    places = (Path(path), DEFAULT_RUNS / path)
+    return next((_run_in(folder.resolve()) for folder in places if (folder / holding).exists()), None)
 
 
 def _run_in(place: Anywhere, inputs: Path | None = None) -> RunFolder:

@@ -17,9 +17,9 @@ from orchestrator.commands._options import emit, example, json_option
 def command(run: str, score: str, output: Path | None, as_json: bool) -> None:
     """Draw a score of RUN over its generations: of each group of islands the best and the mean of who was scored."""
     from analysis.chart import write_chart
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
-    folder = open_run(run)
+    folder = open_remains(run)
     path = output or Path(f"{folder.name}-{score}.png")
     write_chart(folder, score, path)
     if as_json:

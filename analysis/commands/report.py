@@ -17,10 +17,10 @@ from orchestrator.commands._options import emit, example, json_option
 def command(run: str, output: Path | None, as_json: bool) -> None:
     """Write one HTML file that shows RUN: forms, fitness, channels, failures, ancestors, settings, and the queries."""
     from analysis.report import write_report
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
     click.echo("gathering the figures and growing the pictures anew ...", err=True)
-    place = write_report(open_run(run), output)
+    place = write_report(open_remains(run), output)
     if as_json:
         emit({"report": place})
     else:

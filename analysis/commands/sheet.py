@@ -28,9 +28,9 @@ from orchestrator.commands._options import emit, example, json_option
 def command(run: str, islands: tuple[str, ...], count: int, output: Path, as_json: bool) -> None:
     """Draw RUN's forms side by side: of each island the best over time, or, of plans alone, the best at one scale."""
     from analysis.sheets import write_sheet
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
-    missing = write_sheet(open_run(run), count, islands, output)
+    missing = write_sheet(open_remains(run), count, islands, output)
     for line in missing:
         click.echo(f"atoll: {line}", err=True)
     if as_json:

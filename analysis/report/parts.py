@@ -45,7 +45,7 @@ class Figure:
 
     @property
     def numeric(self) -> list[bool]:
-        """Which columns are of numbers."""
+        """Which columns are of numbers; found out anew each time that it is asked for."""
         kinds = (int, float, Decimal)
         return [all(row[at] is None or isinstance(row[at], kinds) for row in self.answer.rows)
                 for at in range(len(self.answer.columns))]  # fmt: skip

@@ -13,9 +13,9 @@ from orchestrator.commands._options import emit, example, json_option
 def command(run: str, as_json: bool) -> None:
     """Give one hash of what happened in RUN: equal for runs that did the same."""
     from orchestrator.digest import digest
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
-    value, rows = digest(open_run(run).log)
+    value, rows = digest(open_remains(run).log)
     if as_json:
         emit({"digest": value, "rows": rows})
     else:

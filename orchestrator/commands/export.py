@@ -39,9 +39,9 @@ def command(
 ) -> None:
     """Regrow individuals of RUN from its log and write their forms, named ISLAND-ID, into a folder."""
     from orchestrator import regrow
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
-    folder = open_run(run)
+    folder = open_remains(run)
     suffixes = list(dict.fromkeys(part.strip().lower().lstrip(".") for part in formats.split(",") if part.strip()))
     if not suffixes:
         raise InputError("--format", "suffixes such as glb,png", f"'{formats}'")

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from genome.errors import InputError
+from genome.files import write_whole
 from orchestrator.commands._options import emit, example, json_option
 
 
@@ -31,9 +32,9 @@ def command(run: str, sql: str, form: str, output: Path | None, as_json: bool) -
     can be read too. One query that only reads, in DuckDB's SQL; columns of one name are numbered (a, a_1).
     """
     from orchestrator import query
-    from orchestrator.folder import open_run
+    from orchestrator.folder import open_remains
 
-    log = open_run(run).log
+    log = open_remains(run).log
     if output is not None and not output.parent.is_dir():
         raise InputError("-o", "a file in a folder that exists", str(output))
     if form == "parquet" and not as_json:
@@ -58,8 +59,5 @@ def command(run: str, sql: str, form: str, output: Path | None, as_json: bool) -
 def _put(content: bytes, output: Path | None) -> None:
     if output is None:
         click.echo(content, nl=False)
-        return
-    try:
-        output.write_bytes(content)
-    except OSError as error:
-        raise InputError("-o", "a file that can be written", f"{output} ({error.strerror or error})") from None
+    else:
+        write_whole(output, content)

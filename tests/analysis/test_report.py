@@ -190,6 +190,27 @@ def test_without_a_manifest_that_can_be_read_the_log_tells_of_the_islands(copy: 
     assert "nobody is valid" not in text
 
 
+def test_without_a_manifest_all_that_only_reads_goes_on(copy: Path, tmp_path: Path) -> None:
+    (copy / "manifest.json").unlink()
+    reader, text = reported(copy, tmp_path / "report.html")
+    assert "manifest.json: expected a run's manifest" in troubles(text)[0]
+    assert len(reader.images) == 2 * 4
+    for arguments in (
+        ("sheet", copy, "-o", tmp_path / "sheet.png"),
+        ("chart", copy, "-o", tmp_path / "chart.png"),
+        ("query", copy, "select count(*) from individuals"),
+        ("digest", copy),
+        ("export", copy, "--island", "net", "-o", tmp_path / "forms"),
+    ):
+        result = atoll(*arguments)
+        assert result.exit_code == 0, result.output
+    result = atoll("resume", copy)
+    assert result.exit_code == 2
+    assert "expected a run's folder, got one without manifest.json" in result.stderr
+    shutil.rmtree(copy / "log")
+    assert atoll("report", copy).exit_code == 2
+
+
 def test_without_the_experiment_there_are_numbers_and_no_pictures(copy: Path) -> None:
     (copy / "experiment.yaml").unlink()
     reader, text = reported(copy, copy / "report.html")

@@ -1,5 +1,7 @@
 """Files are written whole or not at all."""
 
+import os
+import threading
 from pathlib import Path
 
 import pytest
@@ -32,3 +34,15 @@ def test_a_folder_that_is_none_is_bad_input(tmp_path: Path) -> None:
     for place, reason in (("a.txt/b.txt", "not a directory"), ("none/b.txt", "no such file or directory")):
         with pytest.raises(InputError, match=f"got {reason}; check the folder"):
             write_whole(tmp_path / place, b"")
+
+
+def test_a_pipe_is_written_to_and_stays_one(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    read: list[bytes] = []
+    reader = threading.Thread(target=lambda: read.append(pipe.read_bytes()))
+    reader.start()
+    write_whole(pipe, b"through")
+    reader.join(20)
+    assert read == [b"through"]
+    assert pipe.is_fifo()

@@ -385,11 +385,12 @@ def test_an_export_that_fails_leaves_no_folder_and_one_that_cannot_be_written_is
     assert (tmp_path / "kept").is_dir()
     (tmp_path / "afile").write_text("", encoding="utf-8")
     refused(atoll("export", done, "--format", "txt", "-o", tmp_path / "afile" / "x"), "-o: expected a folder")
-    refused(atoll("query", done, "select 1", "-o", tmp_path / "afile" / "x"), "-o: expected a file")
+    refused(atoll("query", done, "select 1", "-o", tmp_path / "afile" / "x"), "-o: expected a file in a folder")
+    refused(atoll("query", done, "select 1", "-o", ""), ".: expected a file that can be written")
     if Path("/proc/self").exists():
         refused(atoll("export", done, "--format", "txt", "-o", "/proc/x"), "-o: expected a folder")
         refused(atoll("export", done, "--format", "txt", "-o", "/proc"), "-o: expected a folder")
-        refused(atoll("query", done, "select 1", "-o", "/proc/x"), "-o: expected a file")
+        refused(atoll("query", done, "select 1", "-o", "/proc/x"), "/proc/x: expected a file")
 
 
 def test_an_individual_whose_evaluation_raised_replays_as_such(tmp_path) -> None:

@@ -218,6 +218,16 @@ def test_a_place_without_a_run_is_bad_input(endpoint: str) -> None:
         assert "s3://bucket/nothing: expected a run's folder, got one without manifest.json" in told
 
 
+def test_a_run_that_lost_its_manifest_is_read_by_its_log(pair) -> None:
+    _, far = pair
+    lost = Store.open("s3://bucket/lost")
+    for name in files(far):
+        if name != "manifest.json":
+            lost.write(name, far.read(name))
+    assert atoll("digest", "s3://bucket/lost")["digest"] == digest(far.at("log"))[0]
+    assert "got one without manifest.json" in refused("show", "s3://bucket/lost")
+
+
 def test_a_bucket_that_is_not_there_is_told_before_anything_runs(endpoint: str, tmp_path) -> None:
     path = write(tmp_path, bits())
     for arguments in (("run", path, "--runs-dir", "s3://none/runs"), ("show", "s3://none/runs/bits")):
