@@ -12,20 +12,20 @@ from genome.errors import InputError
 COMMANDS: Final = {
     "run": "Run an experiment.",
     "resume": "Go on with a run from its last checkpoint.",
-    "grow": "Grow one form, without evolution.",
-    "check": "Validate a file without running it.",
-    "validate": "Reproduce published behaviour of island models.",
-    "show": "Show how a run stands.",
     "steer": "Intervene in a running run.",
-    "chart": "Draw a score over a run's generations.",
-    "query": "Put an SQL query to a run's log.",
-    "digest": "Give one hash of what happened in a run.",
-    "replay": "Regrow a logged individual and score it again.",
-    "export": "Write forms of a run's individuals.",
-    "refine": "Repair, remesh or smooth a form, or make it a solid.",
+    "show": "Show how a run stands.",
     "report": "Write one HTML file that shows a run.",
     "sheet": "Draw a run's forms side by side.",
+    "chart": "Draw a score over a run's generations.",
+    "query": "Put an SQL query to a run's log.",
+    "export": "Write forms of a run's individuals.",
+    "refine": "Repair, remesh or smooth a form, or make it a solid.",
+    "replay": "Run a run again, or one of its individuals, and compare.",
+    "digest": "Give one hash of what happened in a run.",
+    "grow": "Grow one form, without evolution.",
+    "check": "Validate a file without running it.",
     "schema": "Print the JSON Schema of the experiment file.",
+    "validate": "Reproduce published behaviour of island models.",
 }
 """The commands in the order of the help; ``orchestrator.commands.NAME`` holds each as ``command``."""
 
@@ -62,6 +62,16 @@ class LazyGroup(click.Group):
         found = importlib.import_module(ELSEWHERE.get(cmd_name, f"orchestrator.commands.{cmd_name}")).command
         assert isinstance(found, click.Command)
         return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that is called; one that is not there is told with the nearest that is."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from genome.settings import near
+
+            ctx.fail(f"No such command '{args[0]}'; {near(args[0], list(COMMANDS))}")
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the commands into the help without importing them."""

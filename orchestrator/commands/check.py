@@ -14,7 +14,7 @@ from orchestrator.commands._options import emit, example, json_option
 @click.option("--set", "overrides", multiple=True, metavar="KEY.PATH=VALUE", help="As for 'atoll run'.")
 @json_option
 def command(file: Path, overrides: tuple[str, ...], as_json: bool) -> None:
-    """Validate FILE (an experiment, rules, an environment, a grammar) without running it."""
+    """Validate FILE (an experiment, a system of any kind, an environment, a grammar, a plan) without running it."""
     from orchestrator.checking import check
 
     kind, notes = check(file, overrides)

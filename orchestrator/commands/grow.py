@@ -21,7 +21,7 @@ from orchestrator.commands._options import emit, example, json_option
     ),
 )
 @click.argument("file", type=click.Path(path_type=Path))
-@click.option("--steps", type=int, help="Derivation steps, or iterations.")
+@click.option("--steps", type=int, help="Derivation steps, or iterations; the usual ones without.")
 @click.option("--time", "until", metavar="T", help="For timed systems: the time to grow to, or FROM:TO:STEP.")
 @click.option("--environment", type=click.Path(path_type=Path), help="An environment file; empty space without.")
 @click.option("--set", "overrides", multiple=True, metavar="KEY=VALUE", help="A setting of growth, such as scale.")
@@ -44,7 +44,7 @@ def command(
     output: Path | None,
     as_json: bool,
 ) -> None:
-    """Grow one form from FILE, a rule file (or measure a block body); the engine goes by its suffix."""
+    """Grow one form from FILE, and measure it: rules, an L-system, a plan, or a body; the engine goes by its suffix."""
     from orchestrator.cli import Complaint
     from orchestrator.growing import Request, engine_for
 

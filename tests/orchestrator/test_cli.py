@@ -68,6 +68,13 @@ def test_ctrl_c_and_full_memory_are_told_in_a_line(monkeypatch, error, code, sai
     assert "Traceback" not in result.stderr
 
 
+def test_a_command_that_is_not_there_is_told_with_the_nearest() -> None:
+    for name, said in (("repot", "No such command 'repot'; did you mean 'report'?"), ("x", "'x'; known: chart, check")):
+        result = atoll(name, "run")
+        assert (result.exit_code, result.stdout) == (2, "")
+        assert said in result.stderr
+
+
 def test_help_lists_the_commands_and_imports_none_of_the_heavy_libraries() -> None:
     code = (
         "import sys\nfrom orchestrator.cli import main\n"
