@@ -225,7 +225,6 @@ class _Compiler:
             rules=_ints([(*rule[:4], *rule.births) for rule in rules], 6),
             births=_ints([(birth.code, *birth.arguments, birth.age, self._settled(birth)) for birth in births], 5),
             room=made.room,
-            most_births=max(map(len, words)),
             most_values=max(sum(last - first for _, (first, last), _ in word) for word in words),
         )
 

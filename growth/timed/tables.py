@@ -197,8 +197,8 @@ class Tables(NamedTuple):
         whether it can be put without computing: parameters that are constants or parameters, constant ages.
     room
         Slots and stack places that an evaluation needs at most.
-    most_births, most_values
-        The most modules, and parameters, of a successor.
+    most_values
+        The most parameters of a successor.
     """
 
     ops: Ints
@@ -210,7 +210,6 @@ class Tables(NamedTuple):
     rules: Ints
     births: Ints
     room: int
-    most_births: int
     most_values: int
 
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from maps import violations
 from strategies import systems
 
 from growth.hemls import SurfaceGrowth, derive, grow, parse_system
-from growth.hemls.map import HalfEdgeMap, violations
+from growth.hemls.map import HalfEdgeMap
 from growth.protocol import Failure
 from growth.surface import Surface
 
