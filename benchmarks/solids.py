@@ -1,7 +1,7 @@
 """How many evolved forms ``atoll refine --recipe solid`` makes watertight.
 
 ``python -m benchmarks.solids [RUN]`` takes the best forms of every group of islands of a run, of ``experiments/
-archipelago.yaml`` without (which it runs first, some two minutes in all), writes them as GLB, refines each to a solid,
+archipelago.yaml`` without (which it runs first, some six minutes in all), writes them as GLB, refines each to a solid,
 writes it as STL, which knows no shared corners, and asks trimesh whether what it reads is watertight.
 """
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from growth.protocol import Failure
 from growth.refining.lab import filtered, length
-from growth.refining.mesh import Mesh, pieces, volumes
+from growth.refining.mesh import CLOSE, Mesh, pieces, volumes
 from growth.refining.parting import parted
 
 if TYPE_CHECKING:
     from growth.refining.recipe import RefineSettings
-
-CLOSE: Final = 1e-7
-"""Vertices nearer to each other than this share of the diagonal are one."""
 
 
 def clean(mesh: Mesh, settings: RefineSettings) -> Mesh | Failure:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from growth.surface import Indices, Points
+
+CLOSE: Final = 1e-7
+"""Corners nearer to each other than this share of the diagonal are one."""
 
 
 class Mesh(NamedTuple):
@@ -80,6 +83,19 @@ def edge_uses(triangles: Indices) -> tuple[NDArray[np.int64], NDArray[np.int64]]
     keys = ends.min(axis=1) * (int(triangles.max(initial=0)) + 1) + ends.max(axis=1)
     _, edge = np.unique(keys, return_inverse=True)
     return np.bincount(edge), np.bincount(edge, weights=way).astype(np.int64)
+
+
+def joined_at_places(mesh: Mesh) -> Mesh:
+    """Join corners at one place, as programs must that read STL files; triangles that lose a corner go.
+
+    One place is what lies within :data:`CLOSE` of the diagonal.
+    """
+    _, first, places = np.unique(
+        np.round(mesh.vertices / (CLOSE * mesh.diagonal)), axis=0, return_index=True, return_inverse=True
+    )
+    triangles = places.reshape(-1)[mesh.triangles].astype(np.int32)
+    apart = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return Mesh(mesh.vertices[first], triangles[apart])
 
 
 def volumes(mesh: Mesh) -> Points:

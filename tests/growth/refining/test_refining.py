@@ -7,15 +7,16 @@ import sys
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from genome.errors import InputError
 from growth.protocol import Failure
 from growth.refining import STEPS, Mesh, RefineSettings, lab, parse_recipe, quality, refine
 from growth.refining.clean import outward
-from growth.refining.mesh import pieces
+from growth.refining.mesh import joined_at_places, pieces
 from growth.refining.parting import parted
+from growth.refining.union import touching, united
 
 try:
     lab.load()
@@ -138,18 +139,9 @@ def test_a_surface_becomes_a_solid_of_the_thickness_asked_for(height: float) -> 
 
 
 @with_pymeshlab
-def test_a_solid_stays_as_it_is_and_touching_bodies_become_one() -> None:
+def test_a_solid_stays_as_it_is() -> None:
     box = mesh_of(trimesh.creation.box())
     assert refined(box, "solid").vertices.tolist() == refined(box, "clean").vertices.tolist()
-    # Two cubes that share an edge: closed, and four triangles at one edge.
-    pair = Mesh(
-        np.concatenate([box.vertices, box.vertices + np.array([1, 1, 0])]),
-        np.concatenate([box.triangles, box.triangles + 8]),
-    )
-    found = quality(refined(pair, "solid"))
-    assert found.watertight
-    assert found.parts == 1
-    assert found.volume == pytest.approx(2.0, rel=0.05)
 
 
 @with_pymeshlab
@@ -250,6 +242,46 @@ def test_any_body_of_cubes_is_parted_into_closed_sides(places: set[tuple[int, in
     found = quality(parted(cubes(*sorted(places))))
     assert found[:5] == (True, True, True, 0, 0)
     assert found.volume == pytest.approx(len(places))
+
+
+@with_pymeshlab
+@pytest.mark.parametrize("name", BODIES)
+def test_bodies_that_touch_become_one_by_welds_alone(name: str) -> None:
+    found = refined(cubes(*BODIES[name]), "solid")
+    assert quality(joined_at_places(found)).watertight
+    assert not any(map(len, touching(joined_at_places(found))))
+    assert quality(found).parts == 1
+    assert quality(found).volume == pytest.approx(len(BODIES[name]), abs=1e-3)
+
+
+@with_pymeshlab
+@settings(max_examples=25)
+@given(st.sets(st.tuples(st.integers(0, 2), st.integers(0, 2), st.integers(0, 2)), min_size=1))
+def test_a_solid_of_cubes_has_their_volume_and_their_hollows(places: set[tuple[int, int, int]]) -> None:
+    # Each cube with all its faces: those that two share stand twice, as where two species touch.
+    alone = [cubes(place) for place in sorted(places)]
+    starts = 8 * np.arange(len(alone), dtype=np.int32)
+    whole = Mesh(
+        np.concatenate([one.vertices for one in alone]),
+        np.concatenate([one.triangles + start for one, start in zip(alone, starts, strict=True)]),
+    )
+    found = refined(whole, "solid")
+    assert quality(joined_at_places(found)).watertight
+    assert quality(found).volume == pytest.approx(len(places), abs=5e-3)
+    assert np.ptp(found.vertices, axis=0) == pytest.approx(np.ptp(whole.vertices, axis=0), abs=0.02)
+
+
+@with_pymeshlab
+def test_bodies_that_overlap_count_once_and_one_turned_inside_out_is_wrapped() -> None:
+    box = trimesh.creation.box()
+    shifted = box.vertices + np.array([0.5, 0.0, 0.0])  # their sides lie in one plane
+    both = np.concatenate([box.vertices, shifted])
+    found = refined(Mesh(both, np.concatenate([box.faces, box.faces + 8]).astype(np.int32)), "solid")
+    assert quality(found).watertight
+    assert quality(found).volume == pytest.approx(1.5)
+    inward = Mesh(both + 0.0, np.concatenate([box.faces[:, ::-1], box.faces[:, ::-1] + 8]).astype(np.int32))
+    assert isinstance(united(inward), Failure)
+    assert quality(refined(inward, "solid")).volume == pytest.approx(1.5, rel=0.05)
 
 
 def test_sides_that_do_not_go_in_pairs_are_parted_each_by_itself() -> None:
