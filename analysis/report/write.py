@@ -119,7 +119,11 @@ def _bred(folder: RunFolder) -> dict[str, Any]:
 def settings(folder: RunFolder) -> Section:
     """Show the experiment as resolved, with every default written out."""
     text = "The experiment as it was resolved, with every default written out: atoll run takes it as it is."
-    return Section("settings", "Settings", text, code=folder.store.read(EXPERIMENT).decode("utf-8", "replace"))
+    try:
+        code = folder.store.read(EXPERIMENT).decode("utf-8", "replace")
+    except FileNotFoundError:
+        raise InputError(folder.source, "the experiment as it was resolved", "no such file") from None
+    return Section("settings", "Settings", text, code=code)
 
 
 def page(name: str, made: list[Section]) -> str:

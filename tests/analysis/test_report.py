@@ -215,7 +215,10 @@ def test_without_the_experiment_there_are_numbers_and_no_pictures(copy: Path) ->
     (copy / "experiment.yaml").unlink()
     reader, text = reported(copy, copy / "report.html")
     assert reader.images == []
-    assert any("experiment.yaml" in trouble for trouble in troubles(text))
+    assert [trouble.partition("experiment.yaml: ")[2] for trouble in troubles(text)] == [
+        "expected a YAML file, got no such file; check the path",
+        "expected the experiment as it was resolved, got no such file",
+    ]
     assert "net: fitness" in text
 
 
