@@ -6,6 +6,7 @@ from itertools import product
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from growth.protocol import Failure
 from growth.refining.lab import filtered
@@ -70,10 +71,15 @@ def touching(mesh: Mesh) -> tuple[Indices, Indices]:
     edges, uses = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
     crossed = edges[uses > 2]
     # A corner of several bodies is parted into one for each.
-    places, times = np.unique(parted(mesh).vertices, axis=0, return_counts=True)
-    twice = (mesh.vertices[:, None] == places[times > 1][None]).all(axis=2).any(axis=1)
+    places, times = np.unique(_rows(parted(mesh).vertices), return_counts=True)
+    twice = np.isin(_rows(mesh.vertices), places[times > 1])
     twice[crossed] = False
     return crossed, np.flatnonzero(twice).astype(np.int32)
+
+
+def _rows(places: Points) -> NDArray[np.void]:
+    """Give each place (n, 3) as one value."""
+    return np.ascontiguousarray(places + 0.0).view([(axis, np.float64) for axis in "xyz"]).reshape(-1)
 
 
 def _union(mesh: Mesh) -> Mesh | Failure:
