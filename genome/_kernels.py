@@ -95,8 +95,34 @@ def repeated(stack: Ints, top: int, gene: int) -> bool:
     return True
 
 
+@njit(cache=True, inline="always")
+def pushed(stack: Ints, top: int) -> tuple[Ints, int]:
+    """Lay the counter of a repetition on the stack; give the stack, larger where need be, and its new top."""
+    if top == stack.size:
+        stack = larger(stack, top + 1)
+    stack[top] = 0
+    return stack, top + 1
+
+
+@njit(cache=True, inline="always")
+def labelled(operation: int, number: int, gene: int, labels: int) -> tuple[int, int]:
+    """Give the number of the label that is written (-1: none), and how many labels are in use then."""
+    if operation <= BOUND and number < 0:
+        number = gene % (labels + 1)
+        labels = max(labels, number + 1)
+    return number, labels
+
+
+@njit(cache=True, inline="always")
+def leaps(operation: int, gene: int, stack: Ints, top: int) -> bool:
+    """Tell whether OPTION, TEST or JUMP leads on to its target; a TEST that does not counts the repetition."""
+    if operation == OPTION:
+        return gene % 2 != 1
+    return operation == JUMP or not repeated(stack, top, gene)
+
+
 @njit(cache=True)
-def expand(  # noqa: C901 - one dispatch loop over ten operations
+def expand(
     code: Ints,
     choices: Ints,
     targets: Ints,
@@ -152,9 +178,7 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
                 return TOO_LONG, reads, labels, written, out[:0]
             written += 1
             word = argument if operation == WRITE else spans.shape[0] - 1
-            if operation <= BOUND and number < 0:
-                number = gene % (labels + 1)
-                labels = max(labels, number + 1)
+            number, labels = labelled(operation, number, gene, labels)
             if operation == BOUND:
                 stack[base + 2 + argument] = number
             out, size = put_token(out, size, letters, spans[word, 0], spans[word, 1], number)
@@ -163,17 +187,11 @@ def expand(  # noqa: C901 - one dispatch loop over ten operations
                 stack = opened(stack, top, pc, base, bound)
                 base, top, depth = top, top + 2 + bound, depth + 1
             pc = chosen(choices, targets, argument, gene, depth >= max_depth - 1)
-        elif operation == OPTION:
-            pc = pc if gene % 2 == 1 else argument
         elif operation == REPEAT:
-            stack = larger(stack, top + 1) if top == stack.size else stack
-            stack[top] = 0
-            top += 1
-        elif operation == TEST:
-            if not repeated(stack, top, gene):
-                top, pc = top - 1, argument
-        elif operation == JUMP:
-            pc = argument
+            stack, top = pushed(stack, top)
+        elif operation in (OPTION, TEST, JUMP):
+            if leaps(operation, gene, stack, top):
+                pc, top = argument, top - 1 if operation == TEST else top
         else:  # END
             pc, top, base, depth = stack[base], base, stack[base + 1], depth - 1
             if top == 0:
