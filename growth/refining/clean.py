@@ -8,7 +8,7 @@ import numpy as np
 
 from growth.protocol import Failure
 from growth.refining.lab import filtered, length
-from growth.refining.mesh import CLOSE, Mesh, pieces, volumes
+from growth.refining.mesh import CLOSE, Mesh, pieces, sides, volumes
 from growth.refining.parting import parted
 
 if TYPE_CHECKING:
@@ -69,8 +69,6 @@ def _within_another(
 
 def _at_open_edges(mesh: Mesh) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
     """Give the triangles that have an edge of their own."""
-    triangles = mesh.triangles.astype(np.int64)
-    ends = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    _, edge, uses = np.unique(np.sort(sides(mesh.triangles), axis=1), axis=0, return_inverse=True, return_counts=True)
     alone = np.flatnonzero(uses[edge.reshape(-1)] == 1)
-    return np.unique(alone % len(triangles))
+    return np.unique(alone % len(mesh.triangles))

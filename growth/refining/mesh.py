@@ -76,9 +76,14 @@ def quality(mesh: Mesh) -> Quality:
     )
 
 
+def sides(triangles: Indices) -> NDArray[np.int64]:
+    """Give where the sides of triangles start and end (3t, 2): all first sides, all second ones, all third ones."""
+    return np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
+
+
 def edge_uses(triangles: Indices) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Count how often each edge is used (e,), and how much more often in one direction than in the other (e,)."""
-    ends = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]).astype(np.int64)
+    ends = sides(triangles)
     way = np.where(ends[:, 0] < ends[:, 1], 1, -1)
     keys = ends.min(axis=1) * (int(triangles.max(initial=0)) + 1) + ends.max(axis=1)
     _, edge = np.unique(keys, return_inverse=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import product
 from typing import Final
 
 import numpy as np
@@ -10,7 +9,7 @@ from numpy.typing import NDArray
 
 from growth.protocol import Failure
 from growth.refining.lab import filtered
-from growth.refining.mesh import Mesh, joined_at_places, quality
+from growth.refining.mesh import Mesh, joined_at_places, quality, sides
 from growth.refining.parting import parted
 from growth.surface import Indices, Points
 
@@ -19,13 +18,6 @@ THIN: Final = 0.001
 
 ROUNDS: Final = 4
 """Welds may touch what they did not touch before."""
-
-_CORNERS: Final = np.array(list(product((-1.0, 1.0), repeat=3)))
-_SIDES: Final = np.array(
-    [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
-     [1, 5, 7], [1, 7, 3]], dtype=np.int32,
-)  # fmt: skip
-"""A box's corners, and its triangles with their fronts outward."""
 
 
 def united(mesh: Mesh) -> Mesh | Failure:
@@ -67,9 +59,8 @@ def touching(mesh: Mesh) -> tuple[Indices, Indices]:
     -------
     The edges (e, 2) of more than two triangles, and the corners (c,) elsewhere at which alone bodies meet.
     """
-    ends = np.concatenate([mesh.triangles[:, [0, 1]], mesh.triangles[:, [1, 2]], mesh.triangles[:, [2, 0]]])
-    edges, uses = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
-    crossed = edges[uses > 2]
+    edges, uses = np.unique(np.sort(sides(mesh.triangles), axis=1), axis=0, return_counts=True)
+    crossed = edges[uses > 2].astype(np.int32)
     # A corner of several bodies is parted into one for each.
     places, times = np.unique(_rows(parted(mesh).vertices), return_counts=True)
     twice = np.isin(_rows(mesh.vertices), places[times > 1])
@@ -93,18 +84,22 @@ def _union(mesh: Mesh) -> Mesh | Failure:
 
 def _welded(mesh: Mesh, edges: Indices, corners: Indices, half: float) -> Mesh:
     """Lay boxes over edges, and about corners."""
-    boxes = [_box(mesh.vertices[first], mesh.vertices[last], half) for first, last in edges]
-    boxes += [mesh.vertices[corner] + half * _CORNERS for corner in corners]
-    vertices = np.concatenate([mesh.vertices, *boxes])
-    starts = len(mesh.vertices) + len(_CORNERS) * np.arange(len(boxes), dtype=np.int32)
-    return Mesh(vertices, np.concatenate([mesh.triangles, *(_SIDES + start for start in starts)]))
+    import trimesh
+
+    box = trimesh.creation.box((2.0, 2.0, 2.0))
+    unit, faces = np.asarray(box.vertices), np.asarray(box.faces, dtype=np.int32)
+    welds = [_along(unit, mesh.vertices[first], mesh.vertices[last], half) for first, last in edges]
+    welds += [mesh.vertices[corner] + half * unit for corner in corners]
+    starts = len(mesh.vertices) + len(unit) * np.arange(len(welds), dtype=np.int32)
+    triangles = np.concatenate([mesh.triangles, *(faces + start for start in starts)])
+    return Mesh(np.concatenate([mesh.vertices, *welds]), triangles)
 
 
-def _box(start: Points, end: Points, half: float) -> Points:
-    """Give the corners (8, 3) of a box about an edge, which it is longer than by ``half`` at both ends."""
+def _along(unit: Points, start: Points, end: Points, half: float) -> Points:
+    """Lay the corners (8, 3) of a cube from -1 to 1 about an edge, which they reach over by ``half`` at both ends."""
     along = (end - start) / max(float(np.linalg.norm(end - start)), 1e-300)
     across = np.cross(along, np.eye(3)[int(np.abs(along).argmin())])
     across /= np.linalg.norm(across)
     axes = np.stack([along, across, np.cross(along, across)])
     reach = np.array([0.5 * float(np.linalg.norm(end - start)) + half, half, half])
-    return np.asarray(0.5 * (start + end) + (_CORNERS * reach) @ axes)
+    return np.asarray(0.5 * (start + end) + (unit * reach) @ axes)
